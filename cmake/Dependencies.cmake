@@ -1,0 +1,27 @@
+# Debian 12 packages; scripts/packages.txt lists them.
+find_package(PkgConfig REQUIRED)
+find_package(Threads REQUIRED)
+find_package(glm REQUIRED)
+find_package(TBB REQUIRED)
+find_package(embree 3 REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+find_package(nlohmann_json REQUIRED)
+find_package(PNG REQUIRED)
+find_package(TinyGLTF REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(doctest REQUIRED)
+
+pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5)
+pkg_check_modules(DEFLATE REQUIRED IMPORTED_TARGET libdeflate)
+add_library(hdf5::hdf5 ALIAS PkgConfig::HDF5)
+add_library(deflate::deflate ALIAS PkgConfig::DEFLATE)
+if(NOT TARGET glm::glm)
+  add_library(glm::glm INTERFACE IMPORTED)
+endif()
+
+# Debian ships valijson's headers with a config whose target name changed over time.
+find_package(valijson QUIET)
+if(NOT TARGET ValiJSON::valijson)
+  add_library(ValiJSON::valijson INTERFACE IMPORTED)
+endif()

@@ -1,0 +1,1 @@
+# Executables: a main.cpp in programs' own folders, linked to the rooms they start.

@@ -1,0 +1,34 @@
+# The architecture, as a table: every room and the rooms it may see. Top to bottom, nobody sees what stands below.
+
+# core: the model and the mathematics; no file, socket, window, device or clock
+focalstage_room(core/base       LIBS glm::glm)
+focalstage_room(core/mesh       USES core/base)
+focalstage_room(core/scene      USES core/base core/mesh)
+focalstage_room(core/stage      USES core/scene core/mesh)
+focalstage_room(core/optics     USES core/stage core/scene)
+focalstage_room(core/compile    USES core/optics core/stage        PRIVATE_LIBS TBB::tbb)
+focalstage_room(core/reference  USES core/compile core/optics core/stage PRIVATE_LIBS embree TBB::tbb)
+focalstage_room(core/schedule   USES core/optics core/scene)
+focalstage_room(core/check      USES core/compile core/schedule core/optics core/scene)
+
+# io: everything that becomes bytes
+focalstage_room(io/files        USES core/base                     PRIVATE_LIBS OpenSSL::Crypto)
+focalstage_room(io/json         USES core/scene                    PRIVATE_LIBS nlohmann_json::nlohmann_json)
+focalstage_room(io/image        USES io/files core/mesh            PRIVATE_LIBS PNG::PNG)
+focalstage_room(io/project      USES io/json io/files core/scene   PRIVATE_LIBS ValiJSON::valijson nlohmann_json::nlohmann_json)
+focalstage_room(io/assets       USES io/image io/files core/scene core/mesh PRIVATE_LIBS TinyGLTF::TinyGLTF)
+focalstage_room(io/show         USES io/project io/assets io/files core/schedule core/compile core/stage
+                                PRIVATE_LIBS hdf5::hdf5 deflate::deflate TBB::tbb)
+focalstage_room(io/export       USES io/show io/image io/files)
+focalstage_room(io/protocol     USES io/project io/files core/scene)
+
+# devices: the rig; drivers see only core
+focalstage_room(devices/sim     USES core/base)
+focalstage_room(devices/player  USES devices/sim io/show core/schedule)
+focalstage_room(devices/runtime USES devices/player devices/sim io/show io/project io/protocol
+                                PRIVATE_LIBS spdlog::spdlog)
+
+# editor: what people touch
+focalstage_room(editor/cli      USES io/project io/assets io/show io/export io/protocol core/check core/reference
+                                     core/compile core/schedule
+                                PRIVATE_LIBS CLI11::CLI11)

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/optics/image_plan.h"
+#include "core/optics/projector_model.h"
+#include "core/scene/project.h"
+
+namespace focalstage {
+
+/// All that decides the images of a frame apart from the stage.
+struct CompileSettings {
+  ProjectorModel projector;
+  int channels = 1;  ///< 1 gray, 3 rgb
+  int bits = 8;
+  double gamma = 1.0;
+  double lens_to_pupil_m = 0.015;
+  double focus_m = 0.0;           ///< the projector's; 0: not known, no defocus is reported
+  double depth_of_field_d = 0.0;
+  Slices slices;
+  std::vector<ImageSpec> images;
+
+  bool operator==(const CompileSettings&) const = default;
+};
+
+/// What the project's projector number `projector` needs.
+CompileSettings compile_settings(const Project& project, std::size_t projector = 0);
+
+/// The images of one frame: codes [count][height][width][channels].
+struct FrameImages {
+  std::size_t count = 0;
+  int width_px = 0;
+  int height_px = 0;
+  int channels = 1;
+  std::vector<std::uint8_t> codes;
+
+  std::size_t bytes_per_image() const {
+    return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) * static_cast<std::size_t>(channels);
+  }
+  std::span<const std::uint8_t> image(std::size_t i) const {
+    return std::span(codes).subspan(i * bytes_per_image(), bytes_per_image());
+  }
+};
+
+/// What compiling measured of one object, both eyes together.
+struct ObjectMeasure {
+  std::size_t index = 0;       ///< in the project's list
+  std::uint64_t samples = 0;   ///< lit samples of slices
+  std::uint64_t beyond = 0;    ///< those that want a power more than 0.3 D beyond the outermost slice
+  double worst_beyond_d = 0.0;
+};
+
+/// What compiling measured of a frame.
+struct FrameMeasure {
+  std::uint64_t lit_pixels = 0;      ///< pixels above zero, over all images
+  std::uint64_t clipped_pixels = 0;  ///< of those, wanted more than full light
+  std::uint64_t surface_pixels = 0;  ///< projector pixels whose ray meets a surface
+  std::uint64_t defocused_pixels = 0;///< of those, outside the projector's depth of field
+  double worst_defocus_d = 0.0;
+  std::vector<ObjectMeasure> objects;  ///< one per staged object
+};
+
+struct CompiledFrame {
+  FrameImages images;
+  FrameMeasure measure;
+};
+
+}  // namespace focalstage

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "core/mesh/mesh.h"
+#include "core/mesh/texture.h"
+
+namespace focalstage {
+
+/// What a mesh is made of, as far as the picture needs it.
+struct Material {
+  std::string name;
+  glm::dvec3 base_color{1.0};      ///< linear RGB; multiplies the texture
+  std::shared_ptr<const Texture> texture;  ///< none: base_color alone
+  bool unlit = false;              ///< KHR_materials_unlit: lights do not act on it
+
+  bool operator==(const Material&) const = default;
+};
+
+/// One drawable of a node: a mesh of the model and its material (-1: plain white).
+struct ModelPart {
+  std::shared_ptr<const Mesh> mesh;
+  int material = -1;
+};
+
+/// Where a node stands in its parent, as translation, rotation and scale (a matrix in a file is decomposed or refused).
+struct NodePose {
+  glm::dvec3 translation{0.0};
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+  glm::dvec3 scale{1.0};
+};
+
+struct Node {
+  std::string name;
+  int parent = -1;  ///< an index smaller than the node's own, or -1
+  NodePose pose;
+  std::vector<ModelPart> parts;
+};
+
+/// One animated property of one node; `values` holds a quaternion as x y z w, a vector as x y z 0.
+struct AnimationChannel {
+  enum class Target { translation, rotation, scale };
+  enum class Interpolation { step, linear, cubic };
+
+  int node = -1;
+  Target target = Target::translation;
+  Interpolation interpolation = Interpolation::linear;
+  std::vector<double> times_s;
+  std::vector<glm::dvec4> values;  ///< cubic: in-tangent, value, out-tangent for each time
+};
+
+struct Animation {
+  std::string name;
+  std::vector<AnimationChannel> channels;
+};
+
+/// The content of one mesh or glTF file. Parents stand before their children in `nodes`.
+struct Model {
+  std::vector<Material> materials;
+  std::vector<Node> nodes;
+  std::vector<Animation> animations;
+};
+
+/// Every file a project refers to, read once, by the path the project writes.
+struct Assets {
+  std::map<std::string, std::shared_ptr<const Model>> models;
+};
+
+}  // namespace focalstage

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/mesh/model.h"
+#include "core/scene/finding.h"
+#include "core/scene/project.h"
+
+namespace focalstage {
+
+/// One file as the project wrote it, with its bytes and their SHA-256 (lower-case hex).
+struct AssetFile {
+  std::string path;  ///< relative to the project folder, with forward slashes
+  std::string sha256;
+  std::vector<std::byte> bytes;
+};
+
+struct LoadedAssets {
+  Assets assets;
+  std::vector<AssetFile> files;  ///< every file the project refers to, those a glTF refers to included; by path
+};
+
+/// Reads everything the project refers to below `folder`. Faults: "asset.missing", "asset.invalid", "path.outside".
+Result<LoadedAssets> load_assets(const Project& project, const std::filesystem::path& folder);
+
+/// The same from files already in memory (a show): nothing beside them is read.
+Result<Assets> assets_from(const Project& project, const std::vector<AssetFile>& files);
+
+/// What a mesh or glTF file holds.
+struct ImportReport {
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+  std::size_t nodes = 0;
+  std::size_t animations = 0;
+  std::vector<Finding> findings;
+};
+
+/// Reads one mesh or glTF file and says what is in it. `file` by its own name, beside the files it refers to.
+Result<ImportReport> inspect_asset(const std::filesystem::path& file);
+
+}  // namespace focalstage
