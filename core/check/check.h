@@ -4,9 +4,9 @@
 
 #include "core/compile/coverage.h"
 #include "core/compile/frame.h"
+#include "core/schedule/schedule.h"
 #include "core/scene/finding.h"
 #include "core/scene/project.h"
-#include "core/schedule/schedule.h"
 
 namespace focalstage {
 

@@ -234,10 +234,10 @@ enum class LightKind { sun, point, sky };
 struct Light {
   std::string name;
   LightKind kind = LightKind::sun;
-  glm::dvec3 position_m{0.0};            ///< point
-  glm::dvec3 direction{0.0, -1.0, 0.0};  ///< sun: the way the light travels
-  glm::dvec3 color{1.0};                 ///< linear RGB
-  double intensity = 1.0;                ///< sun and sky: on a surface facing it; point: at 1 m
+  glm::dvec3 position_m{0.0};              ///< point
+  glm::dvec3 direction{0.0, -1.0, 0.0};    ///< sun: the way the light travels
+  glm::dvec3 color{1.0};                   ///< linear RGB
+  double intensity = 1.0;                  ///< sun and sky: on a surface facing it; point: at 1 m
   Unknown unknown;
   bool operator==(const Light&) const = default;
 };

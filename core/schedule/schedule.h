@@ -50,7 +50,7 @@ struct SlotTrouble {
   int image = -1;
   int other_image = -1;  ///< overlap: the other one
   Side eye = Side::left;
-  double amount = 0.0;  ///< outside_sweep and smear: dioptres; hidden and overlap: seconds
+  double amount = 0.0;   ///< outside_sweep and smear: dioptres; hidden and overlap: seconds
   double limit = 0.0;
 };
 

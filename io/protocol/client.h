@@ -19,7 +19,7 @@ struct RigDescription {
   std::string name;
   std::string kind;  ///< "sim" or the hardware's
   std::vector<Projector> projectors;
-  Glasses glasses;  ///< measured lens response per eye, shutter times, limits
+  Glasses glasses;   ///< measured lens response per eye, shutter times, limits
 };
 
 /// Asked beside delivered for one exposure, worst over the sweeps watched.
@@ -40,13 +40,13 @@ struct SlotReport {
 };
 
 struct RigState {
-  std::string state;  ///< "empty", "ready", "playing", "holding", "dark"
+  std::string state;       ///< "empty", "ready", "playing", "holding", "dark"
   std::string show_sha256;
   std::uint64_t sweeps = 0;
   std::uint64_t missed_exposures = 0;
   double lens_phase = 0.0;
   double temperature_c = 0.0;
-  std::string fault;  ///< latched; empty when none
+  std::string fault;       ///< latched; empty when none
   std::vector<SlotReport> slots;
 };
 

@@ -16,8 +16,7 @@ class ShowWriter {
  public:
   /// Starts a show at `path`. With `resume`, takes over the frames of a part of the same header; another header's part,
   /// a damaged tail or none is started over without a word.
-  static Result<ShowWriter> start(const std::filesystem::path& path, const ShowHeader& header, bool resume,
-                                  int threads);
+  static Result<ShowWriter> start(const std::filesystem::path& path, const ShowHeader& header, bool resume, int threads);
 
   ShowWriter(ShowWriter&&) noexcept;
   ShowWriter& operator=(ShowWriter&&) noexcept;
