@@ -48,6 +48,7 @@ struct SliceLight {
   bool counted = false;    ///< it has weight
   std::size_t object = 0;
   double beyond_d = 0.0;
+  bool below = false;  ///< on which side
 };
 
 /// What one row measured; rows are added up in order.
@@ -102,6 +103,7 @@ SliceLight slice_light(const Scene& scene, Side side, const EyePoint& eye, std::
     const double wanted_d = 1.0 / plane_m - wanted_vergence_d(object.depth, met->depth_m - lens_to_pupil_m);
     weight = scene.rule.weight(n, wanted_d);
     light.beyond_d = scene.rule.beyond_d(wanted_d);
+    light.below = scene.rule.is_below(wanted_d);
   }
   if (weight <= 0.0) return {};
   const glm::dvec3 pupil_m = scene.eyes[side].eye_from_world.inverse().position_m;
@@ -118,6 +120,8 @@ void count(const SliceLight& light, RowMeasure& row) {
   ++object.samples;
   if (light.beyond_d > beyond_limit_d) ++object.beyond;
   object.worst_beyond_d = std::max(object.worst_beyond_d, light.beyond_d);
+  double& own_side_d = light.below ? object.worst_below_d : object.worst_above_d;
+  own_side_d = std::max(own_side_d, light.beyond_d);
 }
 
 /// Adds one sample of the projector's raster to the light of every image.
@@ -200,6 +204,8 @@ void add(const FrameMeasure& row, FrameMeasure& sum) {
     sum.objects[i].samples += row.objects[i].samples;
     sum.objects[i].beyond += row.objects[i].beyond;
     sum.objects[i].worst_beyond_d = std::max(sum.objects[i].worst_beyond_d, row.objects[i].worst_beyond_d);
+    sum.objects[i].worst_below_d = std::max(sum.objects[i].worst_below_d, row.objects[i].worst_below_d);
+    sum.objects[i].worst_above_d = std::max(sum.objects[i].worst_above_d, row.objects[i].worst_above_d);
   }
 }
 
