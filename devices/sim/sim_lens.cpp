@@ -11,6 +11,8 @@ namespace focalstage {
 namespace {
 // Two instants of the generator closer than this are one: far below its step, far above the rounding of a day's clock.
 constexpr double same_instant_s = 1e-9;
+// The output stage rises and falls within one of its steps; a microsecond is faster than any of them.
+constexpr double output_stage_s = 1e-6;
 }  // namespace
 
 LensPoint lens_point(const SimLensSettings& settings, double frequency_hz) {
@@ -26,24 +28,24 @@ SimLens::SimLens(const SimLensSettings& settings) : settings_(settings) {
 void SimLens::play(std::vector<double> drive_a, double step_s, double time_s) {
   extend_to(time_s - same_instant_s);
   cut_at(time_s);
+  if (knots_.back().time_s < time_s - output_stage_s && drive_a_.empty()) {
+    append(time_s - output_stage_s, knots_.back().drive_a);
+  }
   drive_a_ = std::move(drive_a);
   step_s_ = step_s;
   played_from_s_ = time_s;
   next_sample_ = 0;
-  if (drive_a_.empty()) append(time_s, 0.0);
 }
 
 void SimLens::restart(double time_s) {
-  if (!drive_a_.empty()) play(std::move(drive_a_), step_s_, time_s);
+  if (!drive_a_.empty()) play(std::vector<double>(drive_a_), step_s_, time_s);
 }
 
 void SimLens::stop(double time_s) {
-  const double before_s = time_s - same_instant_s;
-  extend_to(before_s);
+  extend_to(time_s - same_instant_s);
   cut_at(time_s);
-  // The output stage falls within one of its steps; a microsecond is faster than any of them.
-  if (knots_.back().drive_a != 0.0) append(time_s, knots_.back().drive_a);
-  append(time_s + 1e-6, 0.0);
+  append(time_s, knots_.back().drive_a);
+  append(time_s + output_stage_s, 0.0);
   drive_a_.clear();
 }
 
