@@ -59,7 +59,7 @@ class SimRig : public RigPort {
   /// The exposures that ended since the last call, in time order.
   std::vector<DeliveredExposure> take_delivered();
 
-  double lens_power_d(Side eye, double time_s) { return lens_[eye].power_d(time_s); }
+  double power_d(Side eye, double time_s) { return lens_[eye].power_d(time_s); }
   double shutter_transmission(Side eye, double time_s) const { return shutter_[eye].at(time_s); }
 
  private:

@@ -61,7 +61,7 @@ TEST_CASE("dark cuts the light that is on, and nothing handed over for later hap
   REQUIRE(light.size() == 1);
   CHECK(light[0].duration_s == doctest::Approx(0.0001).epsilon(1e-6));
   CHECK(rig.shutter_transmission(Side::left, 1.0055) == doctest::Approx(0.0));
-  CHECK(rig.lens_power_d(Side::left, 1.02) == doctest::Approx(0.0));
+  CHECK(rig.power_d(Side::left, 1.02) == doctest::Approx(0.0));
 }
 
 TEST_CASE("after darkness a new sweep shows its own images") {
