@@ -1,8 +1,10 @@
 #include "io/show/writer.h"
 
+#include <tbb/info.h>
 #include <tbb/task_arena.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <mutex>
 #include <new>
@@ -69,7 +71,8 @@ Result<ShowWriter> ShowWriter::start(const std::filesystem::path& path, const Sh
   const ChunkGrid grid = chunk_grid(header.width_px, header.height_px, header.channels);
   Result<PartLog> log = PartLog::open(where + ".part", part_key(header, grid), resume);
   if (!log) return log.fault();
-  const int concurrency = threads > 0 ? threads : tbb::task_arena::automatic;
+  const int all = tbb::info::default_concurrency();
+  const int concurrency = threads > 0 ? std::min(threads, all) : all;
   auto state = std::unique_ptr<State>(new State{path, header, grid, std::move(*log), tbb::task_arena(concurrency), {}});
   std::filesystem::remove(state->temporary(), error);
   return ShowWriter(std::move(state));
