@@ -13,7 +13,7 @@
 #include "core/compile/encode.h"
 #include "core/compile/slice_tile.h"
 #include "core/compile/surface_hits.h"
-#include "core/mesh/closed.h"
+#include "core/mesh/measure.h"
 
 namespace focalstage {
 namespace {
