@@ -71,8 +71,8 @@ glm::dvec3 Shader::light(const ViewTriangle& triangle, const glm::dvec3& weights
 
 glm::dvec3 Shader::color(const ViewTriangle& triangle, double look_x, double look_y) const {
   if (uniform_) return uniform_color_;
-  glm::dvec3 weights{triangle.edge[0].at(look_x, look_y), triangle.edge[1].at(look_x, look_y),
-                     triangle.edge[2].at(look_x, look_y)};
+  glm::dvec3 weights{triangle.edge(0, look_x, look_y), triangle.edge(1, look_x, look_y),
+                     triangle.edge(2, look_x, look_y)};
   weights /= weights.x + weights.y + weights.z;
   const Mesh& mesh = *drawable_->mesh;
   glm::dvec2 uv(0.0);
@@ -83,7 +83,7 @@ glm::dvec3 Shader::color(const ViewTriangle& triangle, double look_x, double loo
   const glm::dvec3 own = base(uv);
   if (!lit_) return own;
   const glm::dvec3 look_world = world_from_eye_.direction({look_x, look_y, -1.0});
-  return own * light(triangle, weights, look_world, 1.0 / triangle.inverse_depth.at(look_x, look_y));
+  return own * light(triangle, weights, look_world, 1.0 / triangle.inverse_depth(look_x, look_y));
 }
 
 }  // namespace focalstage
