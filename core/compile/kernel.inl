@@ -71,9 +71,11 @@ bool apart(const Box& a, const Box& b) {
 unsigned rows_touched(const TileLooks& looks, const Box& box) {
   const Ints touched = (load(looks.row_min_x) <= box.max_x) & (load(looks.row_max_x) >= box.min_x) &
                        (load(looks.row_min_y) <= box.max_y) & (load(looks.row_max_y) >= box.min_y);
-  unsigned bits = 0;
-  for (int row = 0; row < tile_side; ++row) bits |= static_cast<unsigned>(touched[row] & 1) << row;
-  return bits;
+  using Words = std::int64_t __attribute__((vector_size(32)));
+  constexpr Ints bit_of_row = {1, 2, 4, 8, 16, 32, 64, 128};
+  const Words words = reinterpret_cast<Words>(touched & bit_of_row);
+  const std::int64_t both = (words[0] | words[1]) | (words[2] | words[3]);
+  return static_cast<unsigned>(both | both >> 32) & 0xffu;
 }
 
 /// What stays the same for all triangles of a tile.
