@@ -42,7 +42,7 @@ Range stretch_less_one(const EyeTile& tile, const SliceSetup& slice, double lens
     const double bent = static_cast<double>(slice.bend) * surface_m;
     return bent / (surface_m + lens_to_pupil_m - bent);
   };
-  const auto [low, high] = std::minmax(at(tile.min_surface_m), at(tile.max_surface_m));
+  const auto [low, high] = std::minmax({at(tile.min_surface_m), at(tile.max_surface_m)});
   constexpr double slack = 1e-6;
   return {low - slack, high + slack};
 }
