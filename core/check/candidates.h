@@ -12,10 +12,16 @@
 
 namespace focalstage {
 
-// What might clear a finding: lists of edits, the best first. They are tried in core/check/remedies.cpp; here nobody
+// What might clear a finding, the best first. They are tried in core/check/remedies.cpp; here nobody
 // knows yet whether they work. A list is left out where it cannot be had at all.
 
 using Edits = std::vector<Edit>;
+
+struct Candidate {
+  Edits edits;
+  bool gives_up = false;  ///< takes away something that the designer asked for: only where nothing else helps
+};
+using Candidates = std::vector<Candidate>;
 
 Edit set_edit(const std::string& list, const std::string& name, const std::string& key, Value value);
 
@@ -26,13 +32,13 @@ Edit set_edit(const std::string& list, const std::string& name, const std::strin
 std::optional<Edits> widen_sweep(const Project& project, double low_d, double high_d);
 
 /// Widened for all slices and the light, then for [low_d, high_d] alone.
-std::vector<Edits> sweep_candidates(const Project& project, double low_d, double high_d);
+Candidates sweep_candidates(const Project& project, double low_d, double high_d);
 
-std::vector<Edits> no_zero_crossing_candidates(const Project& project);
-std::vector<Edits> lens_range_candidates(const Project& project, const Finding& finding);
-std::vector<Edits> waveform_candidates(const Project& project);
-std::vector<Edits> frame_rate_candidates(const Project& project, const Finding& finding);
-std::vector<Edits> flicker_candidates(const Project& project);
+Candidates no_zero_crossing_candidates(const Project& project);
+Candidates lens_range_candidates(const Project& project, const Finding& finding);
+Candidates waveform_candidates(const Project& project);
+Candidates frame_rate_candidates(const Project& project, const Finding& finding);
+Candidates flicker_candidates(const Project& project);
 
 // The slices ---------------------------------------------------------------------------------------------------------
 
@@ -46,20 +52,19 @@ Edits add_slices(const Project& project, const std::vector<double>& added_d);
 /// none would be left.
 std::optional<Edits> drop_slices(const Project& project, const std::vector<std::size_t>& dropped);
 
-std::vector<Edits> spacing_candidates(const Project& project, const Finding& finding);
+Candidates spacing_candidates(const Project& project, const Finding& finding);
 
 // The projector ------------------------------------------------------------------------------------------------------
 
-std::vector<Edits> shorter_exposures(const Project& project, std::span<const ProjectorModelData> models);
-std::vector<Edits> overlap_candidates(const Project& project, const Finding& finding,
-                                      std::span<const ProjectorModelData> models);
-std::vector<Edits> smear_candidates(const Project& project, const Finding& finding,
-                                    std::span<const ProjectorModelData> models);
-std::vector<Edits> bit_depth_candidates(const Project& project, const Finding& finding,
-                                        std::span<const ProjectorModelData> models);
+Candidates shorter_exposures(const Project& project, std::span<const ProjectorModelData> models);
+Candidates overlap_candidates(const Project& project, const Finding& finding,
+                              std::span<const ProjectorModelData> models);
+Candidates smear_candidates(const Project& project, const Finding& finding, std::span<const ProjectorModelData> models);
+Candidates bit_depth_candidates(const Project& project, const Finding& finding,
+                                std::span<const ProjectorModelData> models);
 
 // The objects --------------------------------------------------------------------------------------------------------
 
-std::vector<Edits> depth_candidates(const Project& project, const Finding& finding, const Measured& measured);
+Candidates depth_candidates(const Project& project, const Finding& finding, const Measured& measured);
 
 }  // namespace focalstage

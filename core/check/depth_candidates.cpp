@@ -72,19 +72,20 @@ std::optional<Edits> pull_in(const Object& object, const Beyond& beyond) {
 
 }  // namespace
 
-std::vector<Edits> depth_candidates(const Project& project, const Finding& finding, const Measured& measured) {
-  std::vector<Edits> candidates;
+Candidates depth_candidates(const Project& project, const Finding& finding, const Measured& measured) {
+  Candidates candidates;
   const int last = static_cast<int>(project.slices.powers_d.size()) - 1;
   for (std::size_t i = 0; i < project.objects.size(); ++i) {
     const Object& object = project.objects[i];
     const std::string where = item_pointer("objects", i) + "/depth";
     if (finding.where == where + "/index" && last >= 0) {
-      candidates.push_back({set_edit("objects", object.name, "depth/index", std::clamp(object.depth.index, 0, last))});
+      candidates.push_back(
+          {{set_edit("objects", object.name, "depth/index", std::clamp(object.depth.index, 0, last))}});
     }
     if (finding.where != where) continue;
     const Beyond beyond = beyond_of(measured, i);
-    if (const auto farther = reach_farther(project, beyond)) candidates.push_back(*farther);
-    if (const auto nearer = pull_in(object, beyond)) candidates.push_back(*nearer);
+    if (const auto farther = reach_farther(project, beyond)) candidates.push_back({*farther});
+    if (const auto nearer = pull_in(object, beyond)) candidates.push_back({*nearer, true});
   }
   return candidates;
 }

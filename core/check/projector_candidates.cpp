@@ -34,33 +34,33 @@ std::optional<Edits> exposure_edits(const Projector& projector, double wanted_ms
 
 }  // namespace
 
-std::vector<Edits> shorter_exposures(const Project& project, std::span<const ProjectorModelData> models) {
-  std::vector<Edits> candidates;
+Candidates shorter_exposures(const Project& project, std::span<const ProjectorModelData> models) {
+  Candidates candidates;
   if (project.projectors.empty()) return candidates;
   const Projector& projector = project.projectors.front();
   for (const double share : {0.9, 0.75, 0.5, 0.25}) {
     const auto edits = exposure_edits(projector, exposure_s(projector) * 1000.0 * share, models);
-    if (edits) candidates.push_back(*edits);
+    if (edits) candidates.push_back({*edits});
   }
   return candidates;
 }
 
-std::vector<Edits> overlap_candidates(const Project& project, const Finding& finding,
-                                      std::span<const ProjectorModelData> models) {
-  std::vector<Edits> candidates;
+Candidates overlap_candidates(const Project& project, const Finding& finding,
+                              std::span<const ProjectorModelData> models) {
+  Candidates candidates;
   if (project.projectors.empty() || !finding.amount) return candidates;
   const Projector& projector = project.projectors.front();
   const double apart_ms = finding.amount->value;
-  if (const auto shorter = exposure_edits(projector, apart_ms, models)) candidates.push_back(*shorter);
+  if (const auto shorter = exposure_edits(projector, apart_ms, models)) candidates.push_back({*shorter});
 
   const double rate = std::ceil(1000.0 / apart_ms);
   if (rate <= known_rate(projector, models)) {
     Edits faster{projector_edit(projector, "frames_per_second", rate)};
-    candidates.push_back(faster);
+    candidates.push_back({faster});
     const auto shorter = exposure_edits(projector, apart_ms, models);
     if (projector.exposure_ms && shorter) {
       faster.insert(faster.end(), shorter->begin(), shorter->end());
-      candidates.push_back(faster);
+      candidates.push_back({faster});
     }
   }
   const std::optional<std::size_t> slice = slice_of(project, finding);
@@ -68,15 +68,15 @@ std::vector<Edits> overlap_candidates(const Project& project, const Finding& fin
   std::vector<double> powers_d = project.slices.powers_d;
   if (std::find(powers_d.begin(), powers_d.end(), 0.0) == powers_d.end()) {
     powers_d[*slice] = 0.0;  // a slice at zero shares the exposure of the light
-    candidates.push_back({set_edit("slices", "", "powers_d", Value(Value::Array(powers_d.begin(), powers_d.end())))});
+    candidates.push_back({{set_edit("slices", "", "powers_d", Value(Value::Array(powers_d.begin(), powers_d.end())))}});
   }
-  if (const auto fewer = drop_slices(project, {*slice})) candidates.push_back(*fewer);
+  if (const auto fewer = drop_slices(project, {*slice})) candidates.push_back({*fewer, true});
   return candidates;
 }
 
-std::vector<Edits> smear_candidates(const Project& project, const Finding& finding,
-                                    std::span<const ProjectorModelData> models) {
-  std::vector<Edits> candidates;
+Candidates smear_candidates(const Project& project, const Finding& finding,
+                            std::span<const ProjectorModelData> models) {
+  Candidates candidates;
   if (project.projectors.empty() || !finding.amount) return candidates;
   const Projector& projector = project.projectors.front();
   const double share = finding.amount->limit / finding.amount->value;
@@ -84,14 +84,14 @@ std::vector<Edits> smear_candidates(const Project& project, const Finding& findi
   // slices that smear even more.
   for (const double margin : {0.99, 0.97, 0.9, 0.8, 0.6}) {
     const auto edits = exposure_edits(projector, exposure_s(projector) * 1000.0 * share * margin, models);
-    if (edits) candidates.push_back(*edits);
+    if (edits) candidates.push_back({*edits});
   }
   return candidates;
 }
 
-std::vector<Edits> bit_depth_candidates(const Project& project, const Finding& finding,
-                                        std::span<const ProjectorModelData> models) {
-  std::vector<Edits> candidates;
+Candidates bit_depth_candidates(const Project& project, const Finding& finding,
+                                std::span<const ProjectorModelData> models) {
+  Candidates candidates;
   for (std::size_t i = 0; i < project.projectors.size(); ++i) {
     const Projector& projector = project.projectors[i];
     const ProjectorModelData* model = find_model(models, projector.model);
@@ -99,15 +99,15 @@ std::vector<Edits> bit_depth_candidates(const Project& project, const Finding& f
 
     const auto fastest = fastest_rate(*model, projector.bits, projector.color);
     if (fastest && projector.frames_per_second > *fastest) {
-      candidates.push_back({projector_edit(projector, "frames_per_second", std::floor(*fastest))});
+      candidates.push_back({{projector_edit(projector, "frames_per_second", std::floor(*fastest))}});
     }
     if (fastest && projector.exposure_ms) {
-      candidates.push_back({projector_edit(projector, "exposure_ms", ceil_us(1000.0 / *fastest))});
+      candidates.push_back({{projector_edit(projector, "exposure_ms", ceil_us(1000.0 / *fastest))}});
     }
     for (int bits = std::min(projector.bits, model->rates.back().bits + 1) - 1; bits >= 1; --bits) {
-      candidates.push_back({projector_edit(projector, "bits", bits)});
+      candidates.push_back({{projector_edit(projector, "bits", bits)}});
     }
-    if (projector.color == ColorMode::rgb) candidates.push_back({projector_edit(projector, "color", "gray")});
+    if (projector.color == ColorMode::rgb) candidates.push_back({{projector_edit(projector, "color", "gray")}, true});
   }
   return candidates;
 }

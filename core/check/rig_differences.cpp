@@ -43,19 +43,14 @@ Value value_of(const PerEye<LensResponse>& response) {
   return Value::Object{{"left", value_of(response.left)}, {"right", value_of(response.right)}};
 }
 
-/// Adopts the rig's lens; a drive that was measured on another lens goes.
+/// Adopts the rig's lens. A drive measured along with the power is sent whatever the response says: it has to be
+/// measured anew.
 Edits lens_edits(const Project& project, const RigValues& rig) {
-  Edits edits{set_edit("glasses", "", "lens_response", value_of(rig.lens_response))};
-  const PerEye<Waveform>& waveform = project.sweep.waveform;
-  if (waveform.left && waveform.left == waveform.right) {
-    if (!waveform.left->drive_a.empty()) edits.push_back(set_edit("sweep", "", "waveform/drive_a", Value()));
-    return edits;
-  }
   for (const Side eye : both_sides) {
-    const std::string key = eye == Side::left ? "waveform/left/drive_a" : "waveform/right/drive_a";
-    if (waveform[eye] && !waveform[eye]->drive_a.empty()) edits.push_back(set_edit("sweep", "", key, Value()));
+    const Waveform& waveform = project.sweep.waveform[eye];
+    if (waveform && !waveform->drive_a.empty()) return {};
   }
-  return edits;
+  return {set_edit("glasses", "", "lens_response", value_of(rig.lens_response))};
 }
 
 Finding difference(const std::string& where, const std::string& what, double value, double limit,

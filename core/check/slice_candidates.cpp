@@ -53,7 +53,7 @@ std::optional<Edits> drop_slices(const Project& project, const std::vector<std::
   return edits;
 }
 
-std::vector<Edits> spacing_candidates(const Project& project, const Finding& finding) {
+Candidates spacing_candidates(const Project& project, const Finding& finding) {
   const std::optional<std::size_t> upper = slice_of(project, finding);
   if (!upper || !finding.amount) return {};
   const double upper_d = project.slices.powers_d[*upper];
@@ -61,7 +61,7 @@ std::vector<Edits> spacing_candidates(const Project& project, const Finding& fin
   const double parts = std::ceil(gap_d / wide_spacing_d - rounding);
   std::vector<double> added_d;
   for (double part = parts - 1.0; part >= 1.0; part -= 1.0) added_d.push_back(upper_d - gap_d * part / parts);
-  return {add_slices(project, added_d)};
+  return {{add_slices(project, added_d)}};
 }
 
 }  // namespace focalstage

@@ -63,7 +63,7 @@ std::optional<Edits> widen_sweep(const Project& project, double low_d, double hi
   return edits;
 }
 
-std::vector<Edits> sweep_candidates(const Project& project, double low_d, double high_d) {
+Candidates sweep_candidates(const Project& project, double low_d, double high_d) {
   double lowest_d = low_d;
   double highest_d = high_d;
   for (const double power_d : project.slices.powers_d) {
@@ -74,29 +74,29 @@ std::vector<Edits> sweep_candidates(const Project& project, double low_d, double
     lowest_d = std::min(lowest_d, 0.0);
     highest_d = std::max(highest_d, 0.0);
   }
-  std::vector<Edits> candidates;
-  if (const auto all = widen_sweep(project, lowest_d, highest_d)) candidates.push_back(*all);
-  if (const auto own = widen_sweep(project, low_d, high_d)) candidates.push_back(*own);
+  Candidates candidates;
+  if (const auto all = widen_sweep(project, lowest_d, highest_d)) candidates.push_back({*all});
+  if (const auto own = widen_sweep(project, low_d, high_d)) candidates.push_back({*own});
   return candidates;
 }
 
-std::vector<Edits> no_zero_crossing_candidates(const Project& project) {
-  std::vector<Edits> candidates = sweep_candidates(project, 0.0, 0.0);
+Candidates no_zero_crossing_candidates(const Project& project) {
+  Candidates candidates = sweep_candidates(project, 0.0, 0.0);
   Edits dark;
   for (const Surface& surface : project.surfaces) {
     if (lit(surface)) dark.push_back(set_edit("surfaces", surface.name, "illumination", 0.0));
   }
-  candidates.push_back(dark);
+  candidates.push_back({dark, true});
   return candidates;
 }
 
-std::vector<Edits> lens_range_candidates(const Project& project, const Finding& finding) {
+Candidates lens_range_candidates(const Project& project, const Finding& finding) {
   const auto& [lens_min_d, lens_max_d] = project.glasses.lens_range_d;
-  std::vector<Edits> candidates;
+  Candidates candidates;
   const double min_d = std::clamp(project.sweep.min_power_d, lens_min_d, lens_max_d);
   const double max_d = std::clamp(project.sweep.max_power_d, lens_min_d, lens_max_d);
   const Edits clamped = sweep_edits(project.sweep, min_d, max_d);
-  if (!clamped.empty()) candidates.push_back(clamped);
+  if (!clamped.empty()) candidates.push_back({clamped});
 
   // Slices that the lens cannot reach, or that a clamped sweep cannot show.
   const double share = project.projectors.empty() ? 1.0 : usable_share(project);
@@ -106,43 +106,38 @@ std::vector<Edits> lens_range_candidates(const Project& project, const Finding& 
     if (std::abs(project.slices.powers_d[i] - (min_d + max_d) / 2.0) > reach_d) beyond.push_back(i);
   }
   if (const auto own = slice_of(project, finding)) {
-    if (const auto dropped = drop_slices(project, {*own})) candidates.push_back(*dropped);
+    if (const auto dropped = drop_slices(project, {*own})) candidates.push_back({*dropped, true});
   }
   if (const auto dropped = drop_slices(project, beyond)) {
     Edits both = clamped;
     both.insert(both.end(), dropped->begin(), dropped->end());
-    candidates.push_back(both);
+    candidates.push_back({both, true});
   }
   return candidates;
 }
 
-std::vector<Edits> waveform_candidates(const Project& project) {
-  const Sweep& sweep = project.sweep;
-  std::vector<Edits> candidates;
-  if (sweep.waveform.left || sweep.waveform.right) candidates.push_back({set_edit("sweep", "", "waveform", "sine")});
-  if (sweep.min_power_d > sweep.max_power_d) {
-    candidates.push_back(sweep_edits(sweep, sweep.max_power_d, sweep.min_power_d));
-  }
-  return candidates;
+Candidates waveform_candidates(const Project& project) {
+  if (!project.sweep.waveform.left && !project.sweep.waveform.right) return {};
+  return {{{set_edit("sweep", "", "waveform", "sine")}, true}};
 }
 
-std::vector<Edits> frame_rate_candidates(const Project& project, const Finding& finding) {
+Candidates frame_rate_candidates(const Project& project, const Finding& finding) {
   const double sweeps = std::max(1.0, std::round(project.sweep.frequency_hz / project.frames.rate_hz));
   if (!finding.amount) return {};
-  return {{set_edit("frames", "", "rate_hz", project.sweep.frequency_hz / sweeps)}};
+  return {{{set_edit("frames", "", "rate_hz", project.sweep.frequency_hz / sweeps)}}};
 }
 
-std::vector<Edits> flicker_candidates(const Project& project) {
+Candidates flicker_candidates(const Project& project) {
   // A measured period holds at its own frequency only.
   if (project.sweep.waveform.left || project.sweep.waveform.right) return {};
   const double rate_hz = project.frames.rate_hz;
   const double least_hz = std::ceil(slowest_sweep_hz / rate_hz - rounding) * rate_hz;
-  std::vector<Edits> candidates;
-  if (std::isfinite(least_hz)) candidates.push_back({set_edit("sweep", "", "frequency_hz", least_hz)});
+  Candidates candidates;
+  if (std::isfinite(least_hz)) candidates.push_back({{set_edit("sweep", "", "frequency_hz", least_hz)}});
   for (const double sweep_hz : {60.0, slowest_sweep_hz}) {
     const double sweeps = std::max(1.0, std::round(sweep_hz / rate_hz));
     candidates.push_back(
-        {set_edit("sweep", "", "frequency_hz", sweep_hz), set_edit("frames", "", "rate_hz", sweep_hz / sweeps)});
+        {{set_edit("sweep", "", "frequency_hz", sweep_hz), set_edit("frames", "", "rate_hz", sweep_hz / sweeps)}});
   }
   return candidates;
 }
