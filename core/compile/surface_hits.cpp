@@ -82,7 +82,7 @@ void meet(const TileRays& rays, const ViewTriangles& view, const KernelView& in_
   for (int i = 0; i < tile_samples; ++i) {
     if (nearest.triangle[i] < 0) continue;
     const ViewTriangle& triangle = view.triangles[static_cast<std::size_t>(nearest.triangle[i])];
-    const double depth_m = 1.0 / triangle.inverse_depth.at(rays.x[i], rays.y[i]);
+    const double depth_m = 1.0 / triangle.inverse_depth(rays.x[i], rays.y[i]);
     met.any = true;
     met.drawable[i] = static_cast<std::int32_t>(triangle.drawable);
     met.triangle[i] = triangle.triangle;
@@ -97,8 +97,8 @@ void meet(const TileRays& rays, const ViewTriangles& view, const KernelView& in_
 double nearest_seen_m(double lens_to_pupil_m) { return lens_to_pupil_m + 1e-3; }
 
 KernelView kernel_view(const ViewTriangles& view, const Cells& cells) {
-  return {view.triangles.data(), cells.grid, cells.begin.data(), cells.items.data(),
-          static_cast<float>(view.nearest_m)};
+  return {view.triangles.data(), view.bounds.data(), cells.grid,
+          cells.begin.data(),    cells.items.data(), static_cast<float>(view.nearest_m)};
 }
 
 ProjectorRays projector_rays(const ProjectorModel& projector, int samples_per_pixel) {
@@ -120,8 +120,10 @@ ProjectorRays projector_rays(const ProjectorModel& projector, int samples_per_pi
 ProjectorHits projector_hits(const ProjectorRays& rays, const ProjectorModel& projector,
                              const std::vector<ViewDrawable>& surfaces, const Kernel& kernel) {
   const Box bounds = bounds_of(rays);
-  const ViewTriangles view = set_up(surfaces, projector.world_from_projector.inverse(), nearest_to_projector_m, bounds);
-  const Cells cells = sort_into_cells(view, bounds, rays.grid.columns(), rays.grid.rows(), {}, 0.0);
+  ViewTriangles view;
+  set_up(view, surfaces, projector.world_from_projector.inverse(), nearest_to_projector_m, bounds);
+  Cells cells;
+  sort_into_cells(cells, view, bounds, rays.grid.columns(), rays.grid.rows(), {}, 0.0);
   const KernelView in_cells = kernel_view(view, cells);
   ProjectorHits hits;
   hits.tiles.resize(rays.tiles.size());

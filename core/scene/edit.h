@@ -12,14 +12,14 @@ struct Project;
 
 /// One change of a project, as data: what undo, the journal, scripts, live links and remedies all speak.
 ///
-///   set     list, name, key, value     `key` may reach inside with slashes ("depth/vergence_d"); a null value removes an
-///                                      optional key; `name` is empty for the single things (viewer, glasses, sweep, slices,
-///                                      frames) and for the project itself (list "")
-///   add     list, name, value          `value` the whole item; at the end of the list, or before `key` if that names an item
-///   remove  list, name
-///   rename  list, name, value          `value` the new name; what refers to the old one follows
-///   move    list, name, value          `value` the new place in the list, from 0
-///   group   list, name, value          `value` the group's name, "" to leave it
+///   set     list, name, key, value     `key` may reach inside with slashes ("depth/vergence_d"); a null value removes
+///   an
+///                                      optional key; `name` is empty for the single things (viewer, glasses, sweep,
+///                                      slices, frames) and for the project itself (list "")
+///   add     list, name, value          `value` the whole item; at the end of the list, or before `key` if that names
+///   an item remove  list, name rename  list, name, value          `value` the new name; what refers to the old one
+///   follows move    list, name, value          `value` the new place in the list, from 0 group   list, name, value
+///   `value` the group's name, "" to leave it
 struct Edit {
   enum class Kind { set, add, remove, rename, move, group };
 

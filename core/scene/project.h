@@ -22,7 +22,7 @@ using Unknown = Value::Object;
 struct Keyframe {
   double time_s = 0.0;
   Rigid pose;
-  Unknown unknown;
+  Unknown unknown{};
   bool operator==(const Keyframe&) const = default;
 };
 
@@ -37,7 +37,7 @@ struct Placement {
 struct Viewer {
   Placement placement;  ///< the midpoint of the pupils
   double interpupillary_mm = 63.0;
-  Unknown unknown;
+  Unknown unknown{};
   bool operator==(const Viewer&) const = default;
 };
 
@@ -46,7 +46,7 @@ struct LensHarmonic {
   int harmonic = 0;
   double gain_d_per_a = 40.0;
   double phase_deg = 0.0;  ///< how far the power is ahead of the drive; a lag is negative
-  Unknown unknown;
+  Unknown unknown{};
   bool operator==(const LensHarmonic&) const = default;
 };
 
@@ -60,7 +60,8 @@ struct Glasses {
   double shutter_close_ms = 0.1;
   double shutter_open_ms = 3.0;
   PerEye<LensResponse> lens_response;
-  Unknown unknown;
+  Unknown lens_response_unknown{};  ///< beside "left" and "right"
+  Unknown unknown{};
   bool operator==(const Glasses&) const = default;
 };
 
@@ -68,7 +69,7 @@ struct Glasses {
 struct MeasuredWaveform {
   std::vector<double> power_d;
   std::vector<double> drive_a;
-  Unknown unknown;
+  Unknown unknown{};
   bool operator==(const MeasuredWaveform&) const = default;
 };
 
@@ -80,7 +81,8 @@ struct Sweep {
   double min_power_d = -1.5;
   double max_power_d = 1.5;
   PerEye<Waveform> waveform;
-  Unknown unknown;
+  Unknown waveform_unknown{};  ///< beside "left" and "right"
+  Unknown unknown{};
   bool operator==(const Sweep&) const = default;
 };
 
@@ -106,7 +108,7 @@ struct Projector {
   std::optional<double> focus_m;
   std::optional<double> depth_of_field_d;
   std::optional<double> lumens;
-  Unknown unknown;
+  Unknown unknown{};
   bool operator==(const Projector&) const = default;
 };
 
@@ -118,14 +120,14 @@ struct Slices {
   Assignment assignment = Assignment::linear;
   Breathing breathing = Breathing::exact;
   int samples_per_pixel = 1;  ///< a square number: 1, 4, 9, 16
-  Unknown unknown;
+  Unknown unknown{};
   bool operator==(const Slices&) const = default;
 };
 
 struct Frames {
   int count = 1;
   double rate_hz = 60.0;
-  Unknown unknown;
+  Unknown unknown{};
   bool operator==(const Frames&) const = default;
 };
 
@@ -169,7 +171,7 @@ using MeshShape = std::variant<FileMesh, PlaneMesh, BoxMesh, SphereMesh, CornerM
 struct MeshSource {
   MeshShape shape = PlaneMesh{};
   std::vector<Value> process;  ///< `{"step": ...}` each
-  Unknown unknown;
+  Unknown unknown{};
   bool operator==(const MeshSource&) const = default;
 };
 
@@ -183,6 +185,7 @@ struct CheckerAppearance {
   glm::ivec2 squares{8, 8};
   glm::dvec3 a{1.0};
   glm::dvec3 b{0.0};
+  Unknown unknown{};
   bool operator==(const CheckerAppearance&) const = default;
 };
 /// The material of the file, lit by the project's lights.
@@ -198,7 +201,7 @@ struct Depth {
   DepthMode mode = DepthMode::placed;
   double vergence_d = 0.0;  ///< fixed: of the whole; offset: added
   int index = 0;            ///< slice: which of the slices' powers, from 0
-  Unknown unknown;
+  Unknown unknown{};
   bool operator==(const Depth&) const = default;
 };
 
@@ -211,7 +214,7 @@ struct Surface {
   std::string group;
   bool hidden = false;
   bool locked = false;
-  Unknown unknown;
+  Unknown unknown{};
   bool operator==(const Surface&) const = default;
 };
 
@@ -221,11 +224,12 @@ struct Object {
   Placement placement;
   double scale = 1.0;
   Appearance appearance;
+  Unknown appearance_unknown{};  ///< beside "unlit" or "checker"
   Depth depth;
   std::string group;
   bool hidden = false;
   bool locked = false;
-  Unknown unknown;
+  Unknown unknown{};
   bool operator==(const Object&) const = default;
 };
 
@@ -234,18 +238,18 @@ enum class LightKind { sun, point, sky };
 struct Light {
   std::string name;
   LightKind kind = LightKind::sun;
-  glm::dvec3 position_m{0.0};              ///< point
-  glm::dvec3 direction{0.0, -1.0, 0.0};    ///< sun: the way the light travels
-  glm::dvec3 color{1.0};                   ///< linear RGB
-  double intensity = 1.0;                  ///< sun and sky: on a surface facing it; point: at 1 m
-  Unknown unknown;
+  glm::dvec3 position_m{0.0};            ///< point
+  glm::dvec3 direction{0.0, -1.0, 0.0};  ///< sun: the way the light travels
+  glm::dvec3 color{1.0};                 ///< linear RGB
+  double intensity = 1.0;                ///< sun and sky: on a surface facing it; point: at 1 m
+  Unknown unknown{};
   bool operator==(const Light&) const = default;
 };
 
 struct Cue {
   std::string name;
   double time_s = 0.0;
-  Unknown unknown;
+  Unknown unknown{};
   bool operator==(const Cue&) const = default;
 };
 
@@ -262,7 +266,7 @@ struct Project {
   std::vector<Object> objects;
   std::vector<Light> lights;
   std::vector<Cue> cues;
-  Unknown unknown;
+  Unknown unknown{};
   bool operator==(const Project&) const = default;
 };
 
