@@ -32,16 +32,28 @@ class [[nodiscard]] Result {
   bool ok() const { return state_.index() == 0; }
   explicit operator bool() const { return ok(); }
 
-  const T& value() const& { assert(ok()); return std::get<0>(state_); }
-  T& value() & { assert(ok()); return std::get<0>(state_); }
-  T&& value() && { assert(ok()); return std::get<0>(std::move(state_)); }
+  const T& value() const& {
+    assert(ok());
+    return std::get<0>(state_);
+  }
+  T& value() & {
+    assert(ok());
+    return std::get<0>(state_);
+  }
+  T&& value() && {
+    assert(ok());
+    return std::get<0>(std::move(state_));
+  }
   const T& operator*() const& { return value(); }
   T& operator*() & { return value(); }
   T&& operator*() && { return std::move(*this).value(); }
   const T* operator->() const { return &value(); }
   T* operator->() { return &value(); }
 
-  const Fault& fault() const { assert(!ok()); return std::get<1>(state_); }
+  const Fault& fault() const {
+    assert(!ok());
+    return std::get<1>(state_);
+  }
 
   /// Passes the value on to `next`, which returns a Result of its own.
   template <class Next>
@@ -63,7 +75,10 @@ class [[nodiscard]] Result<void> {
 
   bool ok() const { return ok_; }
   explicit operator bool() const { return ok_; }
-  const Fault& fault() const { assert(!ok_); return fault_; }
+  const Fault& fault() const {
+    assert(!ok_);
+    return fault_;
+  }
 
  private:
   Fault fault_;

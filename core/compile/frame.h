@@ -18,7 +18,7 @@ struct CompileSettings {
   int bits = 8;
   double gamma = 1.0;
   double lens_to_pupil_m = 0.015;
-  double focus_m = 0.0;           ///< the projector's; 0: not known, no defocus is reported
+  double focus_m = 0.0;  ///< the projector's; 0: not known, no defocus is reported
   double depth_of_field_d = 0.0;
   Slices slices;
   std::vector<ImageSpec> images;
@@ -38,7 +38,8 @@ struct FrameImages {
   std::vector<std::uint8_t> codes;
 
   std::size_t bytes_per_image() const {
-    return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) * static_cast<std::size_t>(channels);
+    return static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) *
+           static_cast<std::size_t>(channels);
   }
   std::span<const std::uint8_t> image(std::size_t i) const {
     return std::span(codes).subspan(i * bytes_per_image(), bytes_per_image());
@@ -47,18 +48,20 @@ struct FrameImages {
 
 /// What compiling measured of one object, both eyes together.
 struct ObjectMeasure {
-  std::size_t index = 0;       ///< in the project's list
-  std::uint64_t samples = 0;   ///< lit samples of slices
-  std::uint64_t beyond = 0;    ///< those that want a power more than 0.3 D beyond the outermost slice
+  std::size_t index = 0;      ///< in the project's list
+  std::uint64_t samples = 0;  ///< lit samples of slices
+  std::uint64_t beyond = 0;   ///< those that want a power more than 0.3 D beyond the outermost slice
   double worst_beyond_d = 0.0;
+  double worst_below_d = 0.0;  ///< the same below the lowest slice alone
+  double worst_above_d = 0.0;  ///< and above the highest
 };
 
 /// What compiling measured of a frame.
 struct FrameMeasure {
-  std::uint64_t lit_pixels = 0;      ///< pixels above zero, over all images
-  std::uint64_t clipped_pixels = 0;  ///< of those, wanted more than full light
-  std::uint64_t surface_pixels = 0;  ///< projector pixels whose ray meets a surface
-  std::uint64_t defocused_pixels = 0;///< of those, outside the projector's depth of field
+  std::uint64_t lit_pixels = 0;        ///< pixels above zero, over all images
+  std::uint64_t clipped_pixels = 0;    ///< of those, wanted more than full light
+  std::uint64_t surface_pixels = 0;    ///< projector pixels whose ray meets a surface
+  std::uint64_t defocused_pixels = 0;  ///< of those, outside the projector's depth of field
   double worst_defocus_d = 0.0;
   std::vector<ObjectMeasure> objects;  ///< one per staged object
 };

@@ -38,8 +38,6 @@ double SliceRule::weight(std::size_t n, double power_d) const {
   return std::max(0.0, 1.0 - (power_d - band.power_d) / (edge_d - band.power_d));
 }
 
-double SliceRule::beyond_d(double power_d) const {
-  return std::max({0.0, lowest_d_ - power_d, power_d - highest_d_});
-}
+double SliceRule::beyond_d(double power_d) const { return std::max({0.0, lowest_d_ - power_d, power_d - highest_d_}); }
 
 }  // namespace focalstage

@@ -10,8 +10,8 @@ namespace focalstage {
 /// How much of the light that wants one power goes into each slice. The weights over all slices sum to one.
 ///
 /// nearest: wholly to the closest power, the lower one on a tie. linear: to the two neighbours by distance in dioptres
-/// (Eq. 4 with the erratum: n the lower neighbour). Beyond the outermost power: wholly to that slice. Of slices with the
-/// same power the first gets all.
+/// (Eq. 4 with the erratum: n the lower neighbour). Beyond the outermost power: wholly to that slice. Of slices with
+/// the same power the first gets all.
 class SliceRule {
  public:
   SliceRule(const std::vector<double>& powers_d, Assignment assignment);
@@ -23,10 +23,10 @@ class SliceRule {
 
   /// The wanted powers for which slice `n` has any weight: the closed range [from_d, to_d].
   struct Band {
-    double from_d;    ///< where its weight leaves zero; -infinity for the lowest
-    double power_d;   ///< its own power
-    double to_d;      ///< where its weight is zero again; +infinity for the highest
-    bool empty;       ///< a slice that repeats an earlier one's power
+    double from_d;   ///< where its weight leaves zero; -infinity for the lowest
+    double power_d;  ///< its own power
+    double to_d;     ///< where its weight is zero again; +infinity for the highest
+    bool empty;      ///< a slice that repeats an earlier one's power
   };
   const Band& band(std::size_t n) const { return bands_[n]; }
 

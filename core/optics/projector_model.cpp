@@ -48,16 +48,14 @@ glm::dvec2 undistorted(const std::vector<double>& c, const glm::dvec2& wanted) {
 }  // namespace
 
 ProjectorModel projector_model(const Projector& projector) {
-  return {projector.width_px,
-          projector.height_px,
-          {projector.fx_px, projector.fy_px},
-          {projector.cx_px, projector.cy_px},
-          projector.distortion,
-          projector.pose};
+  return {
+      projector.width_px,   projector.height_px, {projector.fx_px, projector.fy_px}, {projector.cx_px, projector.cy_px},
+      projector.distortion, projector.pose};
 }
 
 ProjectorModel resized(const ProjectorModel& model, int width_px, int height_px) {
-  const glm::dvec2 ratio{static_cast<double>(width_px) / model.width_px, static_cast<double>(height_px) / model.height_px};
+  const glm::dvec2 ratio{static_cast<double>(width_px) / model.width_px,
+                         static_cast<double>(height_px) / model.height_px};
   ProjectorModel small = model;
   small.width_px = width_px;
   small.height_px = height_px;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/base/result.h"
@@ -11,11 +12,18 @@
 
 namespace focalstage {
 
+/// 8-bit gray (1 channel) or RGB (3) rows from the top as the bytes of a PNG: no dates, no comments, the same for the
+/// same picture. Code "image.invalid" where the numbers don't fit together.
+Result<std::vector<std::byte>> encode_png(int width_px, int height_px, int channels,
+                                          std::span<const std::uint8_t> codes);
+
 /// Writes 8-bit gray (1 channel) or RGB (3) rows from the top, atomically.
 Status write_png(const std::filesystem::path& path, int width_px, int height_px, int channels,
                  std::span<const std::uint8_t> codes);
 
-/// PNG or JPEG bytes as 8-bit RGBA; at most 16384 pixels a side. `source` names it in faults ("image.invalid").
+/// PNG or JPEG bytes as 8-bit RGBA; at most 16384 pixels a side and 2^26 in all. The numbers of the file: gamma, colour
+/// profile and orientation tags are ignored, as glTF demands. `source` names it in faults ("image.invalid",
+/// "image.too-large", "image.unsupported").
 Result<Texture> decode_image(std::span<const std::byte> bytes, const std::string& source);
 
 }  // namespace focalstage

@@ -1,0 +1,283 @@
+#include "core/compile/compile.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "core/compile/encode.h"
+#include "core/compile/slice_tile.h"
+#include "core/compile/surface_hits.h"
+#include "core/mesh/measure.h"
+
+namespace focalstage {
+namespace {
+
+/// Which meshes are closed, asked once per mesh that stays on stage.
+class ClosedMeshes {
+ public:
+  bool operator()(const std::shared_ptr<const Mesh>& mesh) {
+    const auto [entry, fresh] = known_.try_emplace(mesh, false);
+    if (fresh) entry->second = is_closed(*mesh);
+    return entry->second;
+  }
+  /// Forgets meshes that nobody else holds.
+  void tidy() {
+    std::erase_if(known_, [](const auto& entry) { return entry.first.use_count() == 1; });
+  }
+
+ private:
+  std::map<std::shared_ptr<const Mesh>, bool> known_;
+};
+
+template <class Thing>
+std::vector<ViewDrawable> drawables_of(const std::vector<Thing>& things, ClosedMeshes& closed) {
+  std::vector<ViewDrawable> all;
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    for (const Drawable& drawable : things[i].drawables) {
+      all.push_back({&drawable, closed(drawable.mesh), static_cast<std::uint32_t>(i)});
+    }
+  }
+  return all;
+}
+
+/// What a row of tiles counted.
+struct RowTally {
+  std::uint64_t lit_pixels = 0;
+  std::uint64_t clipped_pixels = 0;
+  std::vector<ObjectTally> objects;
+};
+
+/// One frame at work: everything that the rows of tiles read, and the images that they write.
+struct FrameRun {
+  const CompileSettings* settings;
+  const Stage* stage;
+  const ProjectorRays* rays;
+  const ProjectorHits* met;
+  const std::vector<ViewDrawable>* surfaces;
+  PerEye<const EyeHits*> hits;
+  PerEye<const EyeView*> views;
+  std::vector<SliceSetup> slices;
+  SliceRun slice;
+  const Encoder* encoder;
+  FrameImages* images;
+};
+
+void write_tile(const FrameRun& run, std::size_t image, int tile_column, int tile_row, const TileLight& light,
+                RowTally& tally) {
+  FrameImages& out = *run.images;
+  const auto channels = static_cast<std::size_t>(out.channels);
+  const int left = tile_column * tile_side;
+  const int columns = std::min(tile_side, out.width_px - left);
+  const int rows = std::min(tile_side, out.height_px - tile_row * tile_side);
+  for (int y = 0; y < rows; ++y) {
+    const auto row = static_cast<std::size_t>(tile_row * tile_side + y) * static_cast<std::size_t>(out.width_px);
+    std::uint8_t* to =
+        out.codes.data() + image * out.bytes_per_image() + (row + static_cast<std::size_t>(left)) * channels;
+    if (!light.any) {
+      std::memset(to, 0, static_cast<std::size_t>(columns) * channels);
+      continue;
+    }
+    for (int x = 0; x < columns; ++x) {
+      float most = 0.0f;
+      for (std::size_t c = 0; c < channels; ++c) {
+        const float value = light.channel[c][y * tile_side + x];
+        most = std::max(most, value);
+        *to++ = run.encoder->code(value);
+      }
+      constexpr float full = 1.0f + 1e-4f;  // the rounding of sums of weights is no clipping
+      tally.lit_pixels += most > 0.0f ? 1 : 0;
+      tally.clipped_pixels += most > full ? 1 : 0;
+    }
+  }
+}
+
+void add_surface_light(const FrameRun& run, const TileMet& met, TileLight& light) {
+  if (!met.any) return;
+  for (int i = 0; i < tile_samples; ++i) {
+    if (met.drawable[i] < 0) continue;
+    const std::uint32_t owner = (*run.surfaces)[static_cast<std::size_t>(met.drawable[i])].owner;
+    const auto amount = static_cast<float>(run.stage->surfaces[owner].illumination) * run.slice.share;
+    for (int c = 0; c < run.slice.channels; ++c) light.channel[c][i] += amount;
+    light.any = light.any || amount > 0.0f;
+  }
+}
+
+void compile_tile(const FrameRun& run, std::size_t image, int column, int row, RowTally& tally) {
+  const ImageSpec& spec = run.settings->images[image];
+  TileLight light;
+  std::memset(light.channel, 0, sizeof(float) * tile_samples * static_cast<std::size_t>(run.slice.channels));
+  const TileGrid& grid = run.rays->grid;
+  for (int subsample = 0; subsample < run.rays->subsamples; ++subsample) {
+    const std::size_t at = static_cast<std::size_t>(subsample) * grid.count() +
+                           static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns()) +
+                           static_cast<std::size_t>(column);
+    if (spec.kind != ImageKind::surface_light) {
+      const Side side = spec.eye == ImageEye::left ? Side::left : Side::right;
+      const EyeView& view = *run.views[side];
+      const EyeTile& tile = run.hits[side]->tiles[at];
+      const auto slice = static_cast<std::size_t>(spec.slice);
+      if (may_be_lit(view, tile, run.slices[slice], slice)) {
+        slice_tile(run.slice, view, tile, run.slices[slice], slice, light, tally.objects);
+      }
+    }
+    if (spec.kind != ImageKind::content) add_surface_light(run, run.met->tiles[at], light);
+  }
+  write_tile(run, image, column, row, light, tally);
+}
+
+std::vector<RowTally> compile_rows(const FrameRun& run, std::stop_token stop) {
+  const TileGrid& grid = run.rays->grid;
+  std::vector<RowTally> tallies(static_cast<std::size_t>(grid.rows()));
+  tbb::parallel_for(0, grid.rows(), [&](int row) {
+    RowTally& tally = tallies[static_cast<std::size_t>(row)];
+    tally.objects.resize(run.stage->objects.size());
+    if (stop.stop_requested()) return;
+    for (std::size_t image = 0; image < run.settings->images.size(); ++image) {
+      for (int column = 0; column < grid.columns(); ++column) compile_tile(run, image, column, row, tally);
+    }
+  });
+  return tallies;
+}
+
+struct SurfaceMeasure {
+  std::uint64_t surface_pixels = 0;
+  std::uint64_t defocused_pixels = 0;
+  double worst_defocus_d = 0.0;
+};
+
+/// Pixels (their first samples) that meet a surface, and how many of those the projector can't focus.
+SurfaceMeasure measure_surface(const CompileSettings& settings, const ProjectorRays& rays, const ProjectorHits& met) {
+  SurfaceMeasure measure;
+  for (std::size_t tile = 0; tile < rays.grid.count(); ++tile) {
+    const TileMet& hit = met.tiles[tile];
+    if (!hit.any) continue;
+    for (int i = 0; i < tile_samples; ++i) {
+      if (hit.drawable[i] < 0) continue;
+      ++measure.surface_pixels;
+      if (!(settings.focus_m > 0.0) || !(settings.depth_of_field_d > 0.0)) continue;
+      const double off_d = std::abs(1.0 / -hit.z[i] - 1.0 / settings.focus_m) - settings.depth_of_field_d / 2.0;
+      if (off_d > 0.0) ++measure.defocused_pixels;
+      measure.worst_defocus_d = std::max(measure.worst_defocus_d, off_d);
+    }
+  }
+  return measure;
+}
+
+FrameMeasure gather(const Stage& stage, const std::vector<RowTally>& tallies) {
+  FrameMeasure measure;
+  for (const StagedObject& object : stage.objects) measure.objects.push_back({object.index, 0, 0, 0.0});
+  for (const RowTally& row : tallies) {
+    measure.lit_pixels += row.lit_pixels;
+    measure.clipped_pixels += row.clipped_pixels;
+    for (std::size_t i = 0; i < row.objects.size(); ++i) {
+      ObjectMeasure& object = measure.objects[i];
+      object.samples += row.objects[i].samples;
+      object.beyond += row.objects[i].beyond;
+      object.worst_beyond_d = std::max(object.worst_beyond_d, row.objects[i].worst_beyond_d);
+    }
+  }
+  return measure;
+}
+
+}  // namespace
+
+struct Compiler::State {
+  State(CompileSettings given, int threads, VectorPath path)
+      : settings(std::move(given)),
+        arena(threads > 0 ? threads : tbb::task_arena::automatic),
+        kernel(path == VectorPath::portable ? portable_kernel : best_kernel()),
+        rule(settings.slices.powers_d, settings.slices.assignment),
+        encoder(settings.bits, settings.gamma) {}
+
+  /// Where the projector's rays end and what each eye sees of it; kept while surfaces and viewer stand still.
+  void look_at_surfaces(const Stage& stage, const std::vector<ViewDrawable>& surfaces) {
+    if (!rays) rays = projector_rays(settings.projector, settings.slices.samples_per_pixel);
+    const bool same_surfaces = surfaces_before == stage.surfaces && met;
+    const bool same_viewer =
+        same_surfaces && viewer_before == stage.world_from_viewer && interpupillary_before_m == stage.interpupillary_m;
+    if (same_viewer) return;
+    if (!same_surfaces) {
+      met = projector_hits(*rays, settings.projector, surfaces, kernel);
+      surface_measure = measure_surface(settings, *rays, *met);
+    }
+    const PerEye<Eye> eyes = eyes_of(stage.world_from_viewer, stage.interpupillary_m, settings.lens_to_pupil_m);
+    for (const Side side : both_sides) {
+      hits[side] = eye_hits(*met, rays->grid, settings.projector.world_from_projector, eyes[side], surfaces,
+                            settings.slices.breathing, kernel);
+    }
+    surfaces_before = stage.surfaces;
+    viewer_before = stage.world_from_viewer;
+    interpupillary_before_m = stage.interpupillary_m;
+  }
+
+  CompiledFrame frame(const Stage& stage, std::stop_token stop, FrameImages recycled) {
+    const std::vector<ViewDrawable> surfaces = drawables_of(stage.surfaces, closed);
+    const std::vector<ViewDrawable> objects = drawables_of(stage.objects, closed);
+    look_at_surfaces(stage, surfaces);
+
+    CompiledFrame out;
+    out.images = {settings.images.size(), settings.projector.width_px, settings.projector.height_px, settings.channels,
+                  std::move(recycled.codes)};
+    out.images.codes.resize(out.images.count * out.images.bytes_per_image());
+
+    FrameRun run{
+        &settings, &stage, &*rays,   &*met,      &surfaces, {&hits.left, &hits.right}, {&views.left, &views.right},
+        {},        {},     &encoder, &out.images};
+    run.slices = slice_setups(settings.slices, settings.lens_to_pupil_m);
+    run.slice = {&kernel, &rule, settings.channels, 1.0f / static_cast<float>(rays->subsamples)};
+    const PerEye<Eye> eyes = eyes_of(stage.world_from_viewer, stage.interpupillary_m, settings.lens_to_pupil_m);
+    tbb::parallel_for(0, 2, [&](int i) {
+      const Side side = both_sides[static_cast<std::size_t>(i)];
+      if (stop.stop_requested()) return;
+      look_at_objects(views[side], stage, objects, eyes[side], hits[side], rays->grid, run.slices);
+    });
+    const std::vector<RowTally> tallies = compile_rows(run, stop);
+    out.measure = gather(stage, tallies);
+    out.measure.surface_pixels = surface_measure.surface_pixels;
+    out.measure.defocused_pixels = surface_measure.defocused_pixels;
+    out.measure.worst_defocus_d = surface_measure.worst_defocus_d;
+    closed.tidy();
+    return out;
+  }
+
+  CompileSettings settings;
+  tbb::task_arena arena;
+  const Kernel& kernel;
+  SliceRule rule;
+  Encoder encoder;
+  ClosedMeshes closed;
+
+  std::optional<ProjectorRays> rays;
+  std::optional<ProjectorHits> met;
+  SurfaceMeasure surface_measure;
+  PerEye<EyeHits> hits;
+  PerEye<EyeView> views;
+  std::vector<StagedSurface> surfaces_before;
+  Rigid viewer_before;
+  double interpupillary_before_m = 0.0;
+};
+
+Compiler::Compiler(CompileSettings settings, int threads, VectorPath path)
+    : state_(std::make_unique<State>(std::move(settings), threads, path)) {}
+Compiler::~Compiler() = default;
+Compiler::Compiler(Compiler&&) noexcept = default;
+Compiler& Compiler::operator=(Compiler&&) noexcept = default;
+
+Result<CompiledFrame> Compiler::frame(const Stage& stage, std::stop_token stop, FrameImages recycled) {
+  if (state_->settings.slices.assignment == Assignment::optimal) {
+    return Fault{"compile.assignment", "/slices/assignment", "the assignment \"optimal\" is not available yet",
+                 "use \"linear\" or \"nearest\""};
+  }
+  CompiledFrame out;
+  state_->arena.execute([&] { out = state_->frame(stage, stop, std::move(recycled)); });
+  if (stop.stop_requested()) return Fault{"compile.cancelled", "", "compiling was cancelled", ""};
+  return out;
+}
+
+}  // namespace focalstage

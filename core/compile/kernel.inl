@@ -1,0 +1,184 @@
+// Compiled twice, under two names and for two instruction sets; see kernel.h. Nothing from the standard library may be
+// instantiated here: the linker could pick the copy made for the larger instruction set for everyone.
+
+namespace focalstage {
+namespace {
+
+using Floats = float __attribute__((vector_size(32)));
+using Ints = std::int32_t __attribute__((vector_size(32)));
+using Doubles = double __attribute__((vector_size(32)));
+using FourFloats = float __attribute__((vector_size(16)));
+
+constexpr int lanes = tile_side;
+
+Floats load(const float* from) { return *reinterpret_cast<const Floats*>(from); }
+Ints load(const std::int32_t* from) { return *reinterpret_cast<const Ints*>(from); }
+void store(float* to, Floats value) { *reinterpret_cast<Floats*>(to) = value; }
+void store(std::int32_t* to, Ints value) { *reinterpret_cast<Ints*>(to) = value; }
+
+/// st - 1 with st the stretch of looks through the lens: c d / (d + d_e - c d) with c = power * d_e.
+Floats stretch_less_one(Floats surface_m, float bend, float lens_to_pupil_m) {
+  const Floats bent = bend * surface_m;
+  return bent / (surface_m + lens_to_pupil_m - bent);
+}
+
+constexpr Box nothing{__builtin_inff(), __builtin_inff(), -__builtin_inff(), -__builtin_inff()};
+
+/// Bounds of one row. A NaN never compares, so samples that see nothing do not count.
+void bound_row(TileLooks& looks, int row) {
+  const float* const x = looks.x + row * lanes;
+  const float* const y = looks.y + row * lanes;
+  Box box = nothing;
+  for (int i = 0; i < lanes; ++i) {
+    box.min_x = x[i] < box.min_x ? x[i] : box.min_x;
+    box.max_x = x[i] > box.max_x ? x[i] : box.max_x;
+    box.min_y = y[i] < box.min_y ? y[i] : box.min_y;
+    box.max_y = y[i] > box.max_y ? y[i] : box.max_y;
+  }
+  looks.row_min_x[row] = box.min_x;
+  looks.row_min_y[row] = box.min_y;
+  looks.row_max_x[row] = box.max_x;
+  looks.row_max_y[row] = box.max_y;
+}
+
+void place(const TileHits& hits, double origin_x, double origin_y, float bend, float lens_to_pupil_m, TileLooks& out) {
+  const float ox = static_cast<float>(origin_x);
+  const float oy = static_cast<float>(origin_y);
+  Box all = nothing;
+  for (int row = 0; row < tile_side; ++row) {
+    const int at = row * lanes;
+    const Floats x = load(hits.x + at);
+    const Floats y = load(hits.y + at);
+    const Floats stretch = stretch_less_one(load(hits.surface_m + at), bend, lens_to_pupil_m);
+    store(out.x + at, x + (ox + x) * stretch);
+    store(out.y + at, y + (oy + y) * stretch);
+    bound_row(out, row);
+    if (out.row_min_x[row] < all.min_x) all.min_x = out.row_min_x[row];
+    if (out.row_min_y[row] < all.min_y) all.min_y = out.row_min_y[row];
+    if (out.row_max_x[row] > all.max_x) all.max_x = out.row_max_x[row];
+    if (out.row_max_y[row] > all.max_y) all.max_y = out.row_max_y[row];
+  }
+  // Back to the tangent plane, wide enough for the rounding of triangles' boxes.
+  const float slack = 1e-6f * (1.0f + __builtin_fabsf(ox) + __builtin_fabsf(oy));
+  out.all = {ox + all.min_x - slack, oy + all.min_y - slack, ox + all.max_x + slack, oy + all.max_y + slack};
+}
+
+bool apart(const Box& a, const Box& b) {
+  return !(a.min_x <= b.max_x && b.min_x <= a.max_x && a.min_y <= b.max_y && b.min_y <= a.max_y);
+}
+
+/// The rows of a tile whose bounds meet a box, as a bit each.
+unsigned rows_touched(const TileLooks& looks, const Box& box) {
+  const Ints touched = (load(looks.row_min_x) <= box.max_x) & (load(looks.row_max_x) >= box.min_x) &
+                       (load(looks.row_min_y) <= box.max_y) & (load(looks.row_max_y) >= box.min_y);
+  using Words = std::int64_t __attribute__((vector_size(32)));
+  constexpr Ints bit_of_row = {1, 2, 4, 8, 16, 32, 64, 128};
+  const Words words = reinterpret_cast<Words>(touched & bit_of_row);
+  const std::int64_t both = (words[0] | words[1]) | (words[2] | words[3]);
+  return static_cast<unsigned>(both | both >> 32) & 0xffu;
+}
+
+/// What stays the same for all triangles of a tile.
+struct Tile {
+  double origin_x, origin_y;
+  float x, y, slack;
+  float highest;  ///< inverse depths above are too near to be seen
+};
+
+void cover_one(const ViewTriangle& triangle, const Box& bounds, std::int32_t index, const TileLooks& looks,
+               const Tile& tile, TileNearest& out) {
+  const Box box{bounds.min_x - tile.x - tile.slack, bounds.min_y - tile.y - tile.slack,
+                bounds.max_x - tile.x + tile.slack, bounds.max_y - tile.y + tile.slack};
+  unsigned rows = rows_touched(looks, box);
+  if (rows == 0) return;
+  // Moved to the tile's origin in double, so that single precision holds the small rest.
+  const Doubles& a = *reinterpret_cast<const Doubles*>(triangle.a);
+  const Doubles& b = *reinterpret_cast<const Doubles*>(triangle.b);
+  const Doubles& c = *reinterpret_cast<const Doubles*>(triangle.c);
+  const FourFloats per_x = __builtin_convertvector(a, FourFloats);
+  const FourFloats per_y = __builtin_convertvector(b, FourFloats);
+  const FourFloats rest = __builtin_convertvector(a * tile.origin_x + b * tile.origin_y + c, FourFloats);
+  for (; rows != 0; rows &= rows - 1) {
+    const int first = __builtin_ctz(rows) * lanes;
+    const Floats x = load(looks.x + first);
+    const Floats y = load(looks.y + first);
+    const Ints inside = (per_x[0] * x + per_y[0] * y + rest[0] >= 0.0f) &
+                        (per_x[1] * x + per_y[1] * y + rest[1] >= 0.0f) &
+                        (per_x[2] * x + per_y[2] * y + rest[2] >= 0.0f);
+    const Floats r = per_x[3] * x + per_y[3] * y + rest[3];
+    const Floats best = load(out.inverse_m + first);
+    const Ints nearer = inside & (r > best) & (r <= tile.highest);
+    store(out.inverse_m + first, nearer ? r : best);
+    store(out.triangle + first, nearer ? Ints{} + index : load(out.triangle + first));
+  }
+}
+
+void cover(const KernelView& view, const TileLooks& looks, double origin_x, double origin_y, TileNearest& out) {
+  for (int first = 0; first < tile_samples; first += lanes) {
+    store(out.inverse_m + first, Floats{});
+    store(out.triangle + first, Ints{} - 1);
+  }
+  if (!(looks.all.min_x <= looks.all.max_x)) return;
+  const CellGrid& grid = view.grid;
+  const float x = static_cast<float>(origin_x);
+  const float y = static_cast<float>(origin_y);
+  const Tile tile{
+      origin_x, origin_y, x, y, 1e-6f * (1.0f + __builtin_fabsf(x) + __builtin_fabsf(y)), 1.0f / view.nearest_m};
+  const int first_column = column_of(grid, looks.all.min_x);
+  const int last_column = column_of(grid, looks.all.max_x);
+  const int first_row = row_of(grid, looks.all.min_y);
+  const int last_row = row_of(grid, looks.all.max_y);
+  for (int row = first_row; row <= last_row; ++row) {
+    for (int column = first_column; column <= last_column; ++column) {
+      const std::uint32_t* const begin = view.begin + (row * grid.columns + column);
+      for (std::uint32_t i = begin[0]; i < begin[1]; ++i) {
+        const std::uint32_t index = view.items[i];
+        const Box& box = view.bounds[index].box;
+        if (apart(box, looks.all)) continue;
+        // A triangle in several cells is taken in the first of them that the tile visits.
+        if (column != first_column && column_of(grid, box.min_x) != column) continue;
+        if (row != first_row && row_of(grid, box.min_y) != row) continue;
+        cover_one(view.triangles[index], box, static_cast<std::int32_t>(index), looks, tile, out);
+      }
+    }
+  }
+}
+
+Floats clamped(Floats value) {
+  const Floats low = value > 0.0f ? value : Floats{};
+  return low < 1.0f ? low : Floats{} + 1.0f;
+}
+
+Floats band_weight(const SliceBand& band, Floats wanted_d) {
+  if (band.nearest) {
+    const Ints in = (wanted_d > band.from_d) & (wanted_d <= band.to_d);
+    return in ? Floats{} + 1.0f : Floats{};
+  }
+  const Floats off_d = wanted_d - band.power_d;
+  const Floats below = 1.0f + off_d * band.per_d_below;
+  const Floats above = 1.0f - off_d * band.per_d_above;
+  return clamped(below < above ? below : above);
+}
+
+void weigh(const TileHits& hits, const TileNearest& nearest, const TileWants& wants, const SliceBand& band, float bend,
+           float lens_to_pupil_m, TileWeights& out) {
+  const float per_lens = 1.0f / lens_to_pupil_m;
+  for (int first = 0; first < tile_samples; first += lanes) {
+    const Floats own = load(hits.inverse_m + first);
+    const Floats stretch = stretch_less_one(load(hits.surface_m + first), bend, lens_to_pupil_m);
+    const Floats on_plane = own + stretch * load(hits.slope + first);
+    const Ints met = (on_plane > 0.0f) & (on_plane < per_lens);  // in front of the lens
+    const Floats q = met ? on_plane : own;
+    const Floats r = load(nearest.inverse_m + first);
+    const Floats image_d = load(wants.gain + first) * (r / (1.0f - lens_to_pupil_m * r)) + load(wants.offset_d + first);
+    const Floats wanted_d = q / (1.0f - lens_to_pupil_m * q) - image_d;
+    store(out.wanted_d + first, wanted_d);
+    store(out.weight + first, load(nearest.triangle + first) >= 0 ? band_weight(band, wanted_d) : Floats{});
+  }
+}
+
+}  // namespace
+
+const Kernel FOCALSTAGE_KERNEL{place, cover, weigh};
+
+}  // namespace focalstage

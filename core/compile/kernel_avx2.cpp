@@ -1,0 +1,4 @@
+#include "core/compile/kernel.h"
+
+#define FOCALSTAGE_KERNEL avx2_kernel
+#include "core/compile/kernel.inl"

@@ -1,0 +1,4 @@
+#include "core/compile/kernel.h"
+
+#define FOCALSTAGE_KERNEL portable_kernel
+#include "core/compile/kernel.inl"

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/mesh/texture.h"
+#include "core/stage/stage.h"
+
+namespace focalstage {
+
+/// Linear colour of `texture` at `uv`, bilinear between texel centres in linear light; v = 0 is the bottom of the
+/// picture.
+glm::dvec3 texture_colour(const Texture& texture, const glm::dvec2& uv);
+
+/// Linear colour of a drawable's face at the point that its corners share by `shares`, seen from `viewer_m` (world).
+glm::dvec3 colour_at(const Drawable& drawable, std::size_t triangle, const glm::dvec3& shares,
+                     const glm::dvec3& viewer_m, const std::vector<Light>& lights);
+
+/// Rec. 709 luminance of linear RGB.
+double luminance(const glm::dvec3& colour);
+
+}  // namespace focalstage

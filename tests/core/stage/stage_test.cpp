@@ -1,0 +1,180 @@
+#include "core/stage/stage.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <thread>
+
+#include <glm/geometric.hpp>
+
+#include "core/mesh/primitives.h"
+
+using namespace focalstage;
+
+namespace {
+
+Surface surface(const std::string& name, MeshShape shape) {
+  Surface made;
+  made.name = name;
+  made.mesh.shape = std::move(shape);
+  return made;
+}
+
+Object object(const std::string& name, MeshShape shape, Appearance appearance = MaterialAppearance{}) {
+  Object made;
+  made.name = name;
+  made.mesh.shape = std::move(shape);
+  made.appearance = std::move(appearance);
+  return made;
+}
+
+/// A red, a textured and an unlit part on a child node that stands at x = 1 and moves up in a second.
+Assets assets_with_model() {
+  auto mesh = std::make_shared<const Mesh>(make_plane({1, 1}));
+  auto model = std::make_shared<Model>();
+  model->materials.push_back({"red", {1, 0, 0}, nullptr, false});
+  model->materials.push_back({"tiles", {1, 1, 1}, std::make_shared<Texture>(Texture{1, 1, {9, 9, 9, 255}}), false});
+  model->materials.push_back({"glow", {0, 1, 0}, nullptr, true});
+  model->nodes.resize(2);
+  model->nodes[1].parent = 0;
+  model->nodes[1].pose.translation = {1, 0, 0};
+  model->nodes[1].parts = {{mesh, 0}, {mesh, 1}, {mesh, 2}, {mesh, -1}};
+  AnimationChannel rise;
+  rise.node = 0;
+  rise.times_s = {0, 1};
+  rise.values = {{0, 0, 0, 0}, {0, 1, 0, 0}};
+  model->animations.push_back({"rise", {rise}});
+  return {{{"assets/parts.glb", model}}};
+}
+
+Finish flat(const glm::dvec3& color, bool lit = false) {
+  Finish finish;
+  finish.a = color;
+  finish.lit = lit;
+  return finish;
+}
+
+glm::dvec3 origin_of(const Drawable& drawable) { return glm::dvec3(drawable.world_from_mesh[3]); }
+
+}  // namespace
+
+TEST_CASE("a thing stands at its pose, scaled, and keeps its place in the project's list") {
+  Project project;
+  project.surfaces = {surface("hidden", PlaneMesh{}), surface("screen", PlaneMesh{{2, 1}})};
+  project.surfaces[0].hidden = true;
+  project.surfaces[1].placement.pose.position_m = {0, 0, -0.5};
+  project.surfaces[1].scale = 3.0;
+  project.surfaces[1].illumination = 0.25;
+  project.objects = {object("near", BoxMesh{})};
+  project.objects[0].depth.mode = DepthMode::fixed;
+  project.viewer.interpupillary_mm = 60;
+  const Result<Stage> stood = stage(project, {}, 0.0);
+  REQUIRE(stood.ok());
+  REQUIRE(stood->surfaces.size() == 1);
+  CHECK(stood->surfaces[0].name == "screen");
+  CHECK(stood->surfaces[0].index == 1);
+  CHECK(stood->surfaces[0].illumination == 0.25);
+  CHECK(stood->surfaces[0].drawables[0].world_from_mesh * glm::dvec4(1, 0.5, 0, 1) == glm::dvec4(3, 1.5, -0.5, 1));
+  CHECK(stood->objects[0].depth.mode == DepthMode::fixed);
+  CHECK(stood->interpupillary_m == doctest::Approx(0.06));
+}
+
+TEST_CASE("viewer, surfaces and a file's own animation run on one clock") {
+  Project project;
+  Keyframe start;
+  Keyframe end;
+  end.time_s = 2.0;
+  end.pose.position_m = {4, 0, 0};
+  project.viewer.placement.keys = {start, end};
+  project.objects = {object("parts", FileMesh{"assets/parts.glb"})};
+  project.objects[0].placement.keys = {start, end};
+  project.objects[0].scale = 10.0;
+  const Result<Stage> stood = stage(project, assets_with_model(), 0.5);
+  REQUIRE(stood.ok());
+  CHECK(stood->world_from_viewer.position_m == glm::dvec3(1, 0, 0));
+  REQUIRE(stood->objects[0].drawables.size() == 4);
+  // The object at x = 1, its node at 10 x (1, 0.5, 0).
+  CHECK(glm::length(origin_of(stood->objects[0].drawables[0]) - glm::dvec3(11, 5, 0)) < 1e-14);
+}
+
+TEST_CASE("appearance decides the finish; light acts on materials that take it, where there is some") {
+  Project project;
+  project.objects = {object("file", FileMesh{"assets/parts.glb"}),
+                     object("unlit", FileMesh{"assets/parts.glb"}, UnlitAppearance{{0.1, 0.2, 0.3}}),
+                     object("checker", SphereMesh{0.1}, CheckerAppearance{{4, 2}, {1, 1, 0}, {0, 0, 1}}),
+                     object("plain", SphereMesh{0.1})};
+  for (const bool lights : {false, true}) {
+    if (lights) project.lights.emplace_back();
+    const Result<Stage> stood = stage(project, assets_with_model(), 0.0);
+    REQUIRE(stood.ok());
+    CHECK(stood->lights.size() == (lights ? 1 : 0));
+    const auto& parts = stood->objects[0].drawables;
+    CHECK(parts[0].finish == flat({1, 0, 0}, lights));
+    CHECK(parts[1].finish.kind == Finish::Kind::textured);
+    CHECK(parts[1].finish.texture->rgba[0] == 9);
+    CHECK(parts[1].finish.lit == lights);
+    CHECK(parts[2].finish == flat({0, 1, 0}));
+    CHECK(parts[3].finish == flat({1, 1, 1}, lights));
+    for (const Drawable& part : stood->objects[1].drawables) CHECK(part.finish == flat({0.1, 0.2, 0.3}));
+    const Finish& checker = stood->objects[2].drawables[0].finish;
+    CHECK(checker.kind == Finish::Kind::checker);
+    CHECK(checker.a == glm::dvec3(1, 1, 0));
+    CHECK(checker.b == glm::dvec3(0, 0, 1));
+    CHECK(checker.squares == glm::ivec2(4, 2));
+    CHECK_FALSE(checker.lit);
+    CHECK(stood->objects[3].drawables[0].finish == flat({1, 1, 1}, lights));
+  }
+}
+
+TEST_CASE("one shape is one mesh, between calls and between threads") {
+  Project project;
+  project.surfaces = {surface("a", RabbitMesh{}), surface("b", RabbitMesh{}), surface("c", PlaneMesh{{0.3, 0.4}})};
+  std::vector<const Mesh*> seen(4);
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    threads.emplace_back([&, i] { seen[i] = stage(project, {}, 0.0)->surfaces[0].drawables[0].mesh.get(); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const Mesh* mesh : seen) CHECK(mesh == seen[0]);
+  const Stage again = *stage(project, {}, 1.0);
+  CHECK(again.surfaces[1].drawables[0].mesh.get() == seen[0]);
+  CHECK(*again.surfaces[2].drawables[0].mesh == make_plane({0.3, 0.4}));
+  project.surfaces[2].mesh.shape = PlaneMesh{{0.3, 0.41}};
+  CHECK(stage(project, {}, 1.0)->surfaces[2].drawables[0].mesh != again.surfaces[2].drawables[0].mesh);
+}
+
+TEST_CASE("what cannot be stood up is named by its place in the project") {
+  Project project;
+  project.surfaces = {surface("screen", PlaneMesh{})};
+  project.objects = {object("a", TeapotMesh{}), object("b", FileMesh{"assets/none.obj"})};
+  Result<Stage> stood = stage(project, {}, 0.0);
+  REQUIRE_FALSE(stood.ok());
+  CHECK(stood.fault().code == "stage.asset-missing");
+  CHECK(stood.fault().where == "/objects/1/mesh/file");
+  project.objects[1].hidden = true;
+  CHECK(stage(project, {}, 0.0).ok());
+
+  project.surfaces[0].mesh.process.push_back(Value(Value::Object{{"step", "smooth"}}));
+  stood = stage(project, {}, 0.0);
+  REQUIRE_FALSE(stood.ok());
+  CHECK(stood.fault().code == "stage.process-unknown");
+  CHECK(stood.fault().where == "/surfaces/0/mesh/process/0");
+}
+
+TEST_CASE("sizes no mesh can be made of are refused") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::pair<MeshShape, std::string> wrong[] = {
+      {PlaneMesh{{0, 1}}, "size_m"},          {PlaneMesh{{1, -1}}, "size_m"},     {PlaneMesh{{nan, 1}}, "size_m"},
+      {BoxMesh{{1, 1, 1e300}}, "size_m"},     {SphereMesh{0}, "radius_m"},        {CornerMesh{{1, 1}, 0}, "angle_deg"},
+      {CornerMesh{{1, 1}, 360}, "angle_deg"}, {CornerMesh{{0, 1}, 90}, "size_m"}, {StepMesh{{1, 1}, nan}, "depth_m"},
+      {StepMesh{{1, 0}, 0.1}, "size_m"},
+  };
+  for (const auto& [shape, key] : wrong) {
+    Project project;
+    project.surfaces = {surface("screen", shape)};
+    const Result<Stage> stood = stage(project, {}, 0.0);
+    REQUIRE_FALSE(stood.ok());
+    CHECK(stood.fault().code == "stage.mesh-size");
+    CHECK(stood.fault().where == "/surfaces/0/mesh/" + key);
+  }
+}
