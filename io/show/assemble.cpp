@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "io/show/chunks.h"
-#include "io/show/digest.h"
+#include "io/files/digest.h"
 #include "io/show/hdf5_out.h"
 #include "io/show/seal.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "io/show/digest.h"
+#include "io/files/digest.h"
 #include "io/show/show.h"
 
 // A show without a compiler: small, of every kind of content, and the same on every call.
