@@ -145,9 +145,15 @@ std::vector<RowTally> compile_rows(const FrameRun& run, std::stop_token stop) {
   return tallies;
 }
 
+struct SurfaceMeasure {
+  std::uint64_t surface_pixels = 0;
+  std::uint64_t defocused_pixels = 0;
+  double worst_defocus_d = 0.0;
+};
+
 /// Pixels (their first samples) that meet a surface, and how many of those the projector can't focus.
-void measure_surface(const CompileSettings& settings, const ProjectorRays& rays, const ProjectorHits& met,
-                     FrameMeasure& measure) {
+SurfaceMeasure measure_surface(const CompileSettings& settings, const ProjectorRays& rays, const ProjectorHits& met) {
+  SurfaceMeasure measure;
   for (std::size_t tile = 0; tile < rays.grid.count(); ++tile) {
     const TileMet& hit = met.tiles[tile];
     if (!hit.any) continue;
@@ -160,6 +166,7 @@ void measure_surface(const CompileSettings& settings, const ProjectorRays& rays,
       measure.worst_defocus_d = std::max(measure.worst_defocus_d, off_d);
     }
   }
+  return measure;
 }
 
 FrameMeasure gather(const Stage& stage, const std::vector<RowTally>& tallies) {
@@ -173,6 +180,8 @@ FrameMeasure gather(const Stage& stage, const std::vector<RowTally>& tallies) {
       object.samples += row.objects[i].samples;
       object.beyond += row.objects[i].beyond;
       object.worst_beyond_d = std::max(object.worst_beyond_d, row.objects[i].worst_beyond_d);
+      object.worst_below_d = std::max(object.worst_below_d, row.objects[i].worst_below_d);
+      object.worst_above_d = std::max(object.worst_above_d, row.objects[i].worst_above_d);
     }
   }
   return measure;
@@ -195,7 +204,10 @@ struct Compiler::State {
     const bool same_viewer =
         same_surfaces && viewer_before == stage.world_from_viewer && interpupillary_before_m == stage.interpupillary_m;
     if (same_viewer) return;
-    if (!same_surfaces) met = projector_hits(*rays, settings.projector, surfaces, kernel);
+    if (!same_surfaces) {
+      met = projector_hits(*rays, settings.projector, surfaces, kernel);
+      surface_measure = measure_surface(settings, *rays, *met);
+    }
     const PerEye<Eye> eyes = eyes_of(stage.world_from_viewer, stage.interpupillary_m, settings.lens_to_pupil_m);
     for (const Side side : both_sides) {
       hits[side] = eye_hits(*met, rays->grid, settings.projector.world_from_projector, eyes[side], surfaces,
@@ -229,7 +241,9 @@ struct Compiler::State {
     });
     const std::vector<RowTally> tallies = compile_rows(run, stop);
     out.measure = gather(stage, tallies);
-    measure_surface(settings, *rays, *met, out.measure);
+    out.measure.surface_pixels = surface_measure.surface_pixels;
+    out.measure.defocused_pixels = surface_measure.defocused_pixels;
+    out.measure.worst_defocus_d = surface_measure.worst_defocus_d;
     closed.tidy();
     return out;
   }
@@ -243,6 +257,7 @@ struct Compiler::State {
 
   std::optional<ProjectorRays> rays;
   std::optional<ProjectorHits> met;
+  SurfaceMeasure surface_measure;
   PerEye<EyeHits> hits;
   PerEye<EyeView> views;
   std::vector<StagedSurface> surfaces_before;

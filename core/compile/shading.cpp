@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -10,8 +11,9 @@ namespace focalstage {
 namespace {
 
 glm::dvec3 checker(const Finish& finish, const glm::dvec2& uv) {
-  const double cell = std::floor(uv.x * finish.squares.x) + std::floor(uv.y * finish.squares.y);
-  return std::fmod(cell, 2.0) == 0.0 ? finish.a : finish.b;
+  const auto cell = static_cast<std::int64_t>(std::floor(uv.x * finish.squares.x)) +
+                    static_cast<std::int64_t>(std::floor(uv.y * finish.squares.y));
+  return (cell & 1) == 0 ? finish.a : finish.b;
 }
 
 /// What one light adds at `point` of a surface with unit `normal`, both in the world.

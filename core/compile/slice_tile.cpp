@@ -45,6 +45,8 @@ void tally(const SliceRun& run, bool pinned, float wanted_d, ObjectTally& out) {
   ++out.samples;
   const double beyond_d = pinned ? 0.0 : run.rule->beyond_d(wanted_d);
   out.worst_beyond_d = std::max(out.worst_beyond_d, beyond_d);
+  double& own_side_d = run.rule->is_below(wanted_d) ? out.worst_below_d : out.worst_above_d;
+  own_side_d = std::max(own_side_d, beyond_d);
   if (beyond_d > limit_d) ++out.beyond;
 }
 

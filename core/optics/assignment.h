@@ -35,6 +35,9 @@ class SliceRule {
   /// How far `power_d` lies beyond the outermost slice; 0 within.
   double beyond_d(double power_d) const;
 
+  /// Whether `power_d` lies below the lowest slice.
+  bool is_below(double power_d) const { return power_d < lowest_d_; }
+
  private:
   Assignment assignment_;
   std::vector<Band> bands_;

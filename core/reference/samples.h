@@ -39,6 +39,7 @@ struct SliceSample {
   std::size_t object = 0;  ///< in the stage's list
   double weight = 0.0;
   double beyond_d = 0.0;  ///< how far the wanted power lies beyond the outermost slice
+  bool below = false;     ///< it lies below the lowest
   glm::dvec3 colour{0.0};
 };
 
