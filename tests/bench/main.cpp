@@ -5,8 +5,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <functional>
-#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,14 +27,24 @@ using Codes = std::vector<std::uint8_t>;
 struct Variant {
   std::string name;
   std::function<void(Codes&)> frame;
-  std::vector<double> times_ms;
-  Codes codes;
+  std::vector<double> times_ms{};
+  std::vector<double> cpu_ms{};  ///< of all threads: what a busy machine does not lengthen
+  Codes codes{};
 };
 
-double time_ms(const std::function<void(Codes&)>& frame, Codes& codes) {
+double cpu_now_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+void time_one(Variant& variant, Codes& codes) {
+  const double cpu_before_ms = cpu_now_ms();
   const auto start = std::chrono::steady_clock::now();
-  frame(codes);
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  variant.frame(codes);
+  variant.times_ms.push_back(
+      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+  variant.cpu_ms.push_back(cpu_now_ms() - cpu_before_ms);
 }
 
 double median(std::vector<double> times) {
@@ -80,13 +91,14 @@ Result<std::vector<Variant>> variants_of(const BenchScene& scene) {
   const auto two_pass = *passes;
   const auto naive = *rays;
   std::vector<Variant> all;
-  all.push_back({"a1 two passes", [=](Codes& codes) { two_pass->frame(TwoPass::Passes::paper, codes); }, {}, {}});
-  all.push_back({"a3 fused passes", [=](Codes& codes) { two_pass->frame(TwoPass::Passes::fused, codes); }, {}, {}});
-  all.push_back({"b naive rays", [=](Codes& codes) { naive->frame(codes); }, {}, {}});
-  all.push_back({"engine", engine(scene, 0), {}, {}});
-  all.push_back({"engine, first frame", first_frame(scene, 0), {}, {}});
-  all.push_back({"engine, 1 thread", engine(scene, 1), {}, {}});
-  all.push_back({"engine, portable", engine(scene, 0, VectorPath::portable), {}, {}});
+  all.push_back({"a1 two passes", [=](Codes& codes) { two_pass->frame(TwoPass::Passes::paper, codes); }});
+  all.push_back({"a3 fused passes", [=](Codes& codes) { two_pass->frame(TwoPass::Passes::fused, codes); }});
+  all.push_back({"b naive rays", [=](Codes& codes) { naive->frame(NaiveRays::Hits::anew, codes); }});
+  all.push_back({"b, hits kept", [=](Codes& codes) { naive->frame(NaiveRays::Hits::kept, codes); }});
+  all.push_back({"engine", engine(scene, 0)});
+  all.push_back({"engine, first frame", first_frame(scene, 0)});
+  all.push_back({"engine, 1 thread", engine(scene, 1)});
+  all.push_back({"engine, portable", engine(scene, 0, VectorPath::portable)});
   return all;
 }
 
@@ -98,11 +110,11 @@ void print(const BenchScene& scene, std::vector<Variant>& all) {
   const Variant& rival = named(all, "a3 fused passes");
   const Variant& rays = named(all, "b naive rays");
   std::printf("\n%s: %.1f %% of the bytes lit\n", scene.name.c_str(), 100.0 * lit_share(rays.codes));
-  std::printf("  %-22s %9s %9s %9s %12s\n", "", "median ms", "a3 / it", "b / it", "bytes off b");
+  std::printf("  %-22s %9s %9s %9s %9s %12s\n", "", "median ms", "a3 / it", "b / it", "cpu ms", "bytes off b");
   for (const Variant& variant : all) {
     const double ms = median(variant.times_ms);
-    std::printf("  %-22s %9.1f %9.2f %9.2f %12zu\n", variant.name.c_str(), ms, median(rival.times_ms) / ms,
-                median(rays.times_ms) / ms, bytes_off(variant.codes, rays.codes));
+    std::printf("  %-22s %9.1f %9.2f %9.2f %9.1f %12zu\n", variant.name.c_str(), ms, median(rival.times_ms) / ms,
+                median(rays.times_ms) / ms, median(variant.cpu_ms), bytes_off(variant.codes, rays.codes));
   }
   const double one = median(named(all, "engine, 1 thread").times_ms);
   std::printf("  all threads are %.2f x one\n", one / median(named(all, "engine").times_ms));
@@ -120,7 +132,7 @@ Status run(int rounds, const std::string& only) {
     for (Variant& variant : *all) variant.frame(variant.codes);  // warm, and of the stage that b shows
     Codes scratch;
     for (int round = 0; round < rounds; ++round) {
-      for (Variant& variant : *all) variant.times_ms.push_back(time_ms(variant.frame, scratch));
+      for (Variant& variant : *all) time_one(variant, scratch);
     }
     print(scene, *all);
     std::fflush(stdout);

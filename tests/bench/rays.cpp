@@ -144,27 +144,37 @@ struct NaiveRays::State {
     rtcReleaseDevice(device);
   }
 
-  void eye_pixel(Side side, const Tree::Hit& hit, std::size_t at, std::vector<std::uint8_t>& codes) const {
-    const CompileSettings& settings = scene->settings;
-    const double lens_to_pupil_m = settings.lens_to_pupil_m;
-    const glm::dvec3 point_m = eye_from_projector[side].point(hit.point_m);
-    const glm::dvec3 normal = eye_from_projector[side].direction(hit.normal);
-    const glm::dvec2 straight = straight_look(point_m);
-    const auto nearest_m = static_cast<float>(lens_to_pupil_m + 1e-3);
-    if (-point_m.z < lens_to_pupil_m + 1e-3) return;
-    if (scene->surfaces_hide && surfaces[side]->hidden(straight, nearest_m, static_cast<float>(-point_m.z))) return;
-    const std::size_t pixels =
-        static_cast<std::size_t>(settings.projector.width_px) * static_cast<std::size_t>(settings.projector.height_px);
-    for (std::size_t n = 0; n < rule.count(); ++n) {
-      const double stretch = look_stretch(settings.slices.powers_d[n], -point_m.z - lens_to_pupil_m, lens_to_pupil_m);
-      Tree::Hit met;
-      if (!objects[side]->nearest(straight * stretch, nearest_m, met)) continue;
-      const double plane_m = plane_distance_m(straight * stretch, point_m, normal, lens_to_pupil_m);
-      const double weight = rule.weight(n, 1.0 / plane_m - 1.0 / (-met.point_m.z - lens_to_pupil_m));
-      if (!(weight > 0.0)) continue;
-      const double light = std::min(1.0, weight * gray_of(met.drawable->finish, met.uv));
-      codes[(index_of(side) * rule.count() + n) * pixels + at] = static_cast<std::uint8_t>(255.0 * light + 0.5);
-    }
+  /// Where the ray of a pixel ends, as an eye sees it.
+  struct EyePoint {
+    glm::dvec3 point_m;
+    glm::dvec3 normal;
+    glm::dvec2 straight;
+  };
+
+  bool meets(int x, int y, Tree::Hit& hit) const {
+    return lit->nearest(tangent_of_pixel(scene->settings.projector, {x + 0.5, y + 0.5}), 0.0f, hit);
+  }
+
+  bool sees(Side side, const Tree::Hit& hit, EyePoint& eye) const {
+    const double nearest_m = scene->settings.lens_to_pupil_m + 1e-3;
+    eye.point_m = eye_from_projector[side].point(hit.point_m);
+    if (-eye.point_m.z < nearest_m) return false;
+    eye.normal = eye_from_projector[side].direction(hit.normal);
+    eye.straight = straight_look(eye.point_m);
+    return !scene->surfaces_hide ||
+           !surfaces[side]->hidden(eye.straight, static_cast<float>(nearest_m), static_cast<float>(-eye.point_m.z));
+  }
+
+  std::uint8_t shown(Side side, const EyePoint& eye, std::size_t n) const {
+    const double lens_to_pupil_m = scene->settings.lens_to_pupil_m;
+    const double own_m = -eye.point_m.z - lens_to_pupil_m;
+    const glm::dvec2 look = eye.straight * look_stretch(scene->settings.slices.powers_d[n], own_m, lens_to_pupil_m);
+    Tree::Hit met;
+    if (!objects[side]->nearest(look, static_cast<float>(lens_to_pupil_m + 1e-3), met)) return 0;
+    const double plane_m = plane_distance_m(look, eye.point_m, eye.normal, lens_to_pupil_m);
+    const double weight = rule.weight(n, 1.0 / plane_m - 1.0 / (-met.point_m.z - lens_to_pupil_m));
+    if (!(weight > 0.0)) return 0;
+    return static_cast<std::uint8_t>(255.0 * std::min(1.0, weight * gray_of(met.drawable->finish, met.uv)) + 0.5);
   }
 
   const BenchScene* scene;
@@ -186,22 +196,28 @@ Result<std::shared_ptr<NaiveRays>> NaiveRays::of(const BenchScene& scene) {
   return std::shared_ptr<NaiveRays>(new NaiveRays(std::make_unique<State>(scene, device)));
 }
 
-void NaiveRays::frame(std::vector<std::uint8_t>& codes) const {
+void NaiveRays::frame(Hits hits, std::vector<std::uint8_t>& codes) const {
   const ProjectorModel& projector = state_->scene->settings.projector;
-  codes.assign(state_->scene->settings.images.size() * static_cast<std::size_t>(projector.width_px) *
-                   static_cast<std::size_t>(projector.height_px),
-               0);
-  tbb::parallel_for(tbb::blocked_range<int>(0, projector.height_px, 8), [&](const tbb::blocked_range<int>& rows) {
-    for (int y = rows.begin(); y < rows.end(); ++y) {
-      for (int x = 0; x < projector.width_px; ++x) {
-        Tree::Hit hit;
-        if (!state_->lit->nearest(tangent_of_pixel(projector, {x + 0.5, y + 0.5}), 0.0f, hit)) continue;
-        const std::size_t at =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(projector.width_px) + static_cast<std::size_t>(x);
-        for (const Side side : both_sides) state_->eye_pixel(side, hit, at, codes);
+  const auto width = static_cast<std::size_t>(projector.width_px);
+  const std::size_t slices = state_->rule.count(), pixels = width * static_cast<std::size_t>(projector.height_px);
+  codes.assign(2 * slices * pixels, 0);
+  const auto rows = [&](Side side, std::size_t from_slice, std::size_t to_slice) {
+    tbb::parallel_for(tbb::blocked_range<int>(0, projector.height_px, 8), [&](const tbb::blocked_range<int>& range) {
+      for (int y = range.begin(); y < range.end(); ++y) {
+        std::uint8_t* row = &codes[index_of(side) * slices * pixels + static_cast<std::size_t>(y) * width];
+        for (int x = 0; x < projector.width_px; ++x, ++row) {
+          Tree::Hit hit;
+          State::EyePoint eye;
+          if (!state_->meets(x, y, hit) || !state_->sees(side, hit, eye)) continue;
+          for (std::size_t n = from_slice; n < to_slice; ++n) row[n * pixels] = state_->shown(side, eye, n);
+        }
       }
-    }
-  });
+    });
+  };
+  for (const Side side : both_sides) {
+    if (hits == Hits::kept) rows(side, 0, slices);
+    for (std::size_t n = 0; hits == Hits::anew && n < slices; ++n) rows(side, n, n + 1);
+  }
 }
 
 }  // namespace focalstage::bench

@@ -9,15 +9,18 @@
 
 namespace focalstage::bench {
 
-/// Baseline b: one Embree ray per pixel, eye and slice, as one would write it first, on all threads. The trees are
-/// built before the clock runs; the projector's rays and those that ask whether an eye sees a point are traced every
-/// frame.
+/// Baseline b: a ray of Embree per pixel, eye and slice, on all threads. The trees are built before the clock runs.
 class NaiveRays {
  public:
   static Result<std::shared_ptr<NaiveRays>> of(const BenchScene& scene);
   ~NaiveRays();
 
-  void frame(std::vector<std::uint8_t>& codes) const;
+  enum class Hits {
+    anew,  ///< b: each eye and slice is an image of its own, from the projector's ray on, as one writes it first
+    kept,  ///< what the projector meets and an eye sees of it is traced once and serves all slices
+  };
+
+  void frame(Hits hits, std::vector<std::uint8_t>& codes) const;
 
  private:
   struct State;
