@@ -10,10 +10,7 @@
 #include <vector>
 
 #include "io/show/chunks.h"
-<<<<<<< HEAD
-=======
 #include "io/files/digest.h"
->>>>>>> runtime
 #include "io/show/hdf5_out.h"
 #include "io/show/seal.h"
 #include "io/show/write_header.h"
