@@ -1,12 +1,14 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "core/compile/coverage.h"
 #include "core/compile/frame.h"
-#include "core/schedule/schedule.h"
 #include "core/scene/finding.h"
 #include "core/scene/project.h"
+#include "core/schedule/projector_models.h"
+#include "core/schedule/schedule.h"
 
 namespace focalstage {
 
@@ -17,7 +19,15 @@ struct Measured {
 };
 
 /// Everything wrong with a project, in a fixed order (errors first, then by code and place), each with its amount and,
-/// where there is one, a remedy of edits that clears it. The codes are those of design section 6.
+/// where there is one, a remedy of edits that clears it and brings no new error. The codes are those of design section
+/// 6 and `schedule.waveform`: a sweep that is no curve, so that nothing can be timed.
+///
+/// One finding per culprit: the worst of both eyes and all frames. A remedy is tried on the project before it is
+/// offered, except for what only compiling can measure.
 std::vector<Finding> check(const Project& project, const ScheduleResult& schedule, const Measured& measured);
+
+/// The same with projector models of one's own.
+std::vector<Finding> check(const Project& project, const ScheduleResult& schedule, const Measured& measured,
+                           std::span<const ProjectorModelData> models);
 
 }  // namespace focalstage

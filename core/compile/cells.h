@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/compile/tile.h"
@@ -21,7 +23,17 @@ struct CellContent {
   float max_vergence_d;
   std::uint64_t pinned_slices;
   bool depth_decides;  ///< some triangle is not pinned
+
+  void add(const CellContent& other) {
+    min_vergence_d = std::min(min_vergence_d, other.min_vergence_d);
+    max_vergence_d = std::max(max_vergence_d, other.max_vergence_d);
+    pinned_slices |= other.pinned_slices;
+    depth_decides = depth_decides || other.depth_decides;
+  }
 };
+
+inline constexpr CellContent nothing_wanted{std::numeric_limits<float>::infinity(),
+                                            -std::numeric_limits<float>::infinity(), 0, false};
 
 /// A regular grid over a rectangle of the tangent plane. Looks beyond the rectangle count to the cells at its edge.
 struct CellGrid {
@@ -53,7 +65,8 @@ struct Cells {
 };
 
 /// Sorts `view` into `columns` x `rows` cells. `rules` (one per drawable, may be empty) adds what each cell can want.
-Cells sort_into_cells(const ViewTriangles& view, const Box& bounds, int columns, int rows,
-                      const std::vector<VergenceRule>& rules, double lens_to_pupil_m);
+/// Keeps the memory that `cells` already has.
+void sort_into_cells(Cells& cells, const ViewTriangles& view, const Box& bounds, int columns, int rows,
+                     const std::vector<VergenceRule>& rules, double lens_to_pupil_m);
 
 }  // namespace focalstage

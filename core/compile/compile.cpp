@@ -13,7 +13,7 @@
 #include "core/compile/encode.h"
 #include "core/compile/slice_tile.h"
 #include "core/compile/surface_hits.h"
-#include "core/mesh/closed.h"
+#include "core/mesh/measure.h"
 
 namespace focalstage {
 namespace {
@@ -61,7 +61,7 @@ struct FrameRun {
   const ProjectorHits* met;
   const std::vector<ViewDrawable>* surfaces;
   PerEye<const EyeHits*> hits;
-  PerEye<EyeView> views;
+  PerEye<const EyeView*> views;
   std::vector<SliceSetup> slices;
   SliceRun slice;
   const Encoder* encoder;
@@ -119,10 +119,10 @@ void compile_tile(const FrameRun& run, std::size_t image, int column, int row, R
                            static_cast<std::size_t>(column);
     if (spec.kind != ImageKind::surface_light) {
       const Side side = spec.eye == ImageEye::left ? Side::left : Side::right;
-      const EyeView& view = run.views[side];
+      const EyeView& view = *run.views[side];
       const EyeTile& tile = run.hits[side]->tiles[at];
       const auto slice = static_cast<std::size_t>(spec.slice);
-      if (tile.any && !view.view.triangles.empty() && may_be_lit(view, tile, run.slices[slice], slice)) {
+      if (may_be_lit(view, tile, run.slices[slice], slice)) {
         slice_tile(run.slice, view, tile, run.slices[slice], slice, light, tally.objects);
       }
     }
@@ -145,9 +145,15 @@ std::vector<RowTally> compile_rows(const FrameRun& run, std::stop_token stop) {
   return tallies;
 }
 
+struct SurfaceMeasure {
+  std::uint64_t surface_pixels = 0;
+  std::uint64_t defocused_pixels = 0;
+  double worst_defocus_d = 0.0;
+};
+
 /// Pixels (their first samples) that meet a surface, and how many of those the projector can't focus.
-void measure_surface(const CompileSettings& settings, const ProjectorRays& rays, const ProjectorHits& met,
-                     FrameMeasure& measure) {
+SurfaceMeasure measure_surface(const CompileSettings& settings, const ProjectorRays& rays, const ProjectorHits& met) {
+  SurfaceMeasure measure;
   for (std::size_t tile = 0; tile < rays.grid.count(); ++tile) {
     const TileMet& hit = met.tiles[tile];
     if (!hit.any) continue;
@@ -160,6 +166,7 @@ void measure_surface(const CompileSettings& settings, const ProjectorRays& rays,
       measure.worst_defocus_d = std::max(measure.worst_defocus_d, off_d);
     }
   }
+  return measure;
 }
 
 FrameMeasure gather(const Stage& stage, const std::vector<RowTally>& tallies) {
@@ -173,6 +180,8 @@ FrameMeasure gather(const Stage& stage, const std::vector<RowTally>& tallies) {
       object.samples += row.objects[i].samples;
       object.beyond += row.objects[i].beyond;
       object.worst_beyond_d = std::max(object.worst_beyond_d, row.objects[i].worst_beyond_d);
+      object.worst_below_d = std::max(object.worst_below_d, row.objects[i].worst_below_d);
+      object.worst_above_d = std::max(object.worst_above_d, row.objects[i].worst_above_d);
     }
   }
   return measure;
@@ -195,7 +204,10 @@ struct Compiler::State {
     const bool same_viewer =
         same_surfaces && viewer_before == stage.world_from_viewer && interpupillary_before_m == stage.interpupillary_m;
     if (same_viewer) return;
-    if (!same_surfaces) met = projector_hits(*rays, settings.projector, surfaces, kernel);
+    if (!same_surfaces) {
+      met = projector_hits(*rays, settings.projector, surfaces, kernel);
+      surface_measure = measure_surface(settings, *rays, *met);
+    }
     const PerEye<Eye> eyes = eyes_of(stage.world_from_viewer, stage.interpupillary_m, settings.lens_to_pupil_m);
     for (const Side side : both_sides) {
       hits[side] = eye_hits(*met, rays->grid, settings.projector.world_from_projector, eyes[side], surfaces,
@@ -206,29 +218,32 @@ struct Compiler::State {
     interpupillary_before_m = stage.interpupillary_m;
   }
 
-  CompiledFrame frame(const Stage& stage, std::stop_token stop) {
+  CompiledFrame frame(const Stage& stage, std::stop_token stop, FrameImages recycled) {
     const std::vector<ViewDrawable> surfaces = drawables_of(stage.surfaces, closed);
     const std::vector<ViewDrawable> objects = drawables_of(stage.objects, closed);
     look_at_surfaces(stage, surfaces);
 
     CompiledFrame out;
-    out.images = {
-        settings.images.size(), settings.projector.width_px, settings.projector.height_px, settings.channels, {}};
+    out.images = {settings.images.size(), settings.projector.width_px, settings.projector.height_px, settings.channels,
+                  std::move(recycled.codes)};
     out.images.codes.resize(out.images.count * out.images.bytes_per_image());
 
-    FrameRun run{&settings, &stage, &*rays, &*met,    &surfaces,  {&hits.left, &hits.right},
-                 {},        {},     {},     &encoder, &out.images};
+    FrameRun run{
+        &settings, &stage, &*rays,   &*met,      &surfaces, {&hits.left, &hits.right}, {&views.left, &views.right},
+        {},        {},     &encoder, &out.images};
     run.slices = slice_setups(settings.slices, settings.lens_to_pupil_m);
     run.slice = {&kernel, &rule, settings.channels, 1.0f / static_cast<float>(rays->subsamples)};
     const PerEye<Eye> eyes = eyes_of(stage.world_from_viewer, stage.interpupillary_m, settings.lens_to_pupil_m);
     tbb::parallel_for(0, 2, [&](int i) {
       const Side side = both_sides[static_cast<std::size_t>(i)];
-      if (!stop.stop_requested())
-        run.views[side] = eye_view(stage, objects, eyes[side], hits[side], rays->grid, run.slices);
+      if (stop.stop_requested()) return;
+      look_at_objects(views[side], stage, objects, eyes[side], hits[side], rays->grid, run.slices);
     });
     const std::vector<RowTally> tallies = compile_rows(run, stop);
     out.measure = gather(stage, tallies);
-    measure_surface(settings, *rays, *met, out.measure);
+    out.measure.surface_pixels = surface_measure.surface_pixels;
+    out.measure.defocused_pixels = surface_measure.defocused_pixels;
+    out.measure.worst_defocus_d = surface_measure.worst_defocus_d;
     closed.tidy();
     return out;
   }
@@ -242,7 +257,9 @@ struct Compiler::State {
 
   std::optional<ProjectorRays> rays;
   std::optional<ProjectorHits> met;
+  SurfaceMeasure surface_measure;
   PerEye<EyeHits> hits;
+  PerEye<EyeView> views;
   std::vector<StagedSurface> surfaces_before;
   Rigid viewer_before;
   double interpupillary_before_m = 0.0;
@@ -254,13 +271,13 @@ Compiler::~Compiler() = default;
 Compiler::Compiler(Compiler&&) noexcept = default;
 Compiler& Compiler::operator=(Compiler&&) noexcept = default;
 
-Result<CompiledFrame> Compiler::frame(const Stage& stage, std::stop_token stop) {
+Result<CompiledFrame> Compiler::frame(const Stage& stage, std::stop_token stop, FrameImages recycled) {
   if (state_->settings.slices.assignment == Assignment::optimal) {
     return Fault{"compile.assignment", "/slices/assignment", "the assignment \"optimal\" is not available yet",
                  "use \"linear\" or \"nearest\""};
   }
   CompiledFrame out;
-  state_->arena.execute([&] { out = state_->frame(stage, stop); });
+  state_->arena.execute([&] { out = state_->frame(stage, stop, std::move(recycled)); });
   if (stop.stop_requested()) return Fault{"compile.cancelled", "", "compiling was cancelled", ""};
   return out;
 }

@@ -22,8 +22,8 @@ class Compiler {
   Compiler& operator=(Compiler&&) noexcept;
 
   /// The images of `stage`. Faults: "compile.cancelled" within milliseconds of a stop request,
-  /// "compile.assignment" for a rule this engine does not know.
-  Result<CompiledFrame> frame(const Stage& stage, std::stop_token stop = {});
+  /// "compile.assignment" for a rule this engine does not know. `recycled` gives back the memory of an earlier frame.
+  Result<CompiledFrame> frame(const Stage& stage, std::stop_token stop = {}, FrameImages recycled = {});
 
  private:
   struct State;

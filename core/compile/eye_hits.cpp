@@ -161,8 +161,10 @@ EyeHits eye_hits(const ProjectorHits& met, const TileGrid& grid, const Rigid& wo
               std::max(bounds.max_x, tile.straight.max_x), std::max(bounds.max_y, tile.straight.max_y)};
   }
   if (!(bounds.min_x <= bounds.max_x)) return out;
-  const ViewTriangles view = set_up(surfaces, eye.eye_from_world, nearest_m, bounds);
-  const Cells cells = sort_into_cells(view, bounds, grid.columns(), grid.rows(), {}, 0.0);
+  ViewTriangles view;
+  set_up(view, surfaces, eye.eye_from_world, nearest_m, bounds);
+  Cells cells;
+  sort_into_cells(cells, view, bounds, grid.columns(), grid.rows(), {}, 0.0);
   const KernelView in_cells = kernel_view(view, cells);
   tbb::parallel_for(std::size_t{0}, met.tiles.size(), [&](std::size_t i) {
     EyeTile& tile = out.tiles[i];

@@ -42,7 +42,7 @@ Range stretch_less_one(const EyeTile& tile, const SliceSetup& slice, double lens
     const double bent = static_cast<double>(slice.bend) * surface_m;
     return bent / (surface_m + lens_to_pupil_m - bent);
   };
-  const auto [low, high] = std::minmax(at(tile.min_surface_m), at(tile.max_surface_m));
+  const auto [low, high] = std::minmax({at(tile.min_surface_m), at(tile.max_surface_m)});
   constexpr double slack = 1e-6;
   return {low - slack, high + slack};
 }
@@ -103,10 +103,13 @@ std::vector<SliceSetup> slice_setups(const Slices& slices, double lens_to_pupil_
   return setups;
 }
 
-EyeView eye_view(const Stage& stage, const std::vector<ViewDrawable>& objects, const Eye& eye, const EyeHits& hits,
-                 const TileGrid& grid, const std::vector<SliceSetup>& slices) {
-  EyeView out;
+void look_at_objects(EyeView& out, const Stage& stage, const std::vector<ViewDrawable>& objects, const Eye& eye,
+                     const EyeHits& hits, const TileGrid& grid, const std::vector<SliceSetup>& slices) {
   out.lens_to_pupil_m = eye.lens_to_pupil_m;
+  out.rules.clear();
+  out.shaders.clear();
+  out.owner.clear();
+  out.one_rule = true;
   const Rigid world_from_eye = eye.eye_from_world.inverse();
   for (const ViewDrawable& object : objects) {
     out.rules.push_back(rule_of(stage.objects[object.owner].depth));
@@ -115,10 +118,9 @@ EyeView eye_view(const Stage& stage, const std::vector<ViewDrawable>& objects, c
     out.one_rule = out.one_rule && alike(out.rules.front(), out.rules.back());
   }
   const Box bounds = all_looks(hits, slices, eye.lens_to_pupil_m);
-  if (!(bounds.min_x <= bounds.max_x)) return out;
-  out.view = set_up(objects, eye.eye_from_world, nearest_seen_m(eye.lens_to_pupil_m), bounds);
-  out.cells = sort_into_cells(out.view, bounds, grid.columns(), grid.rows(), out.rules, eye.lens_to_pupil_m);
-  return out;
+  set_up(out.view, objects, eye.eye_from_world, nearest_seen_m(eye.lens_to_pupil_m), bounds);
+  sort_into_cells(out.cells, out.view, bounds, grid.columns(), grid.rows(), out.rules, eye.lens_to_pupil_m);
+  out.nothing = out.view.empty();
 }
 
 Box look_bounds(const EyeTile& tile, const SliceSetup& slice, double lens_to_pupil_m) {
@@ -130,18 +132,15 @@ Box look_bounds(const EyeTile& tile, const SliceSetup& slice, double lens_to_pup
 }
 
 bool may_be_lit(const EyeView& view, const EyeTile& tile, const SliceSetup& slice, std::size_t slice_index) {
+  if (view.nothing || !tile.any) return false;
   const Box looks = look_bounds(tile, slice, view.lens_to_pupil_m);
   const CellGrid& grid = view.cells.grid;
-  CellContent content{infinity, -infinity, 0, false};
+  CellContent content = nothing_wanted;
   const int last_column = column_of(grid, looks.max_x);
   const int last_row = row_of(grid, looks.max_y);
   for (int row = row_of(grid, looks.min_y); row <= last_row; ++row) {
     for (int column = column_of(grid, looks.min_x); column <= last_column; ++column) {
-      const CellContent& cell = view.cells.content[static_cast<std::size_t>(row * grid.columns + column)];
-      content.min_vergence_d = std::min(content.min_vergence_d, cell.min_vergence_d);
-      content.max_vergence_d = std::max(content.max_vergence_d, cell.max_vergence_d);
-      content.pinned_slices |= cell.pinned_slices;
-      content.depth_decides |= cell.depth_decides;
+      content.add(view.cells.content[static_cast<std::size_t>(row * grid.columns + column)]);
     }
   }
   if (content.pinned_slices >> slice_index & 1) return true;

@@ -33,10 +33,12 @@ struct EyeView {
   std::vector<Shader> shaders;       ///< per drawable
   std::vector<std::uint32_t> owner;  ///< per drawable: index in the stage's objects
   bool one_rule = true;              ///< all rules are alike, none pins a slice
+  bool nothing = true;               ///< no triangle can be met
 };
 
-EyeView eye_view(const Stage& stage, const std::vector<ViewDrawable>& objects, const Eye& eye, const EyeHits& hits,
-                 const TileGrid& grid, const std::vector<SliceSetup>& slices);
+/// Sets the view up for one frame; keeps the memory it already has.
+void look_at_objects(EyeView& view, const Stage& stage, const std::vector<ViewDrawable>& objects, const Eye& eye,
+                     const EyeHits& hits, const TileGrid& grid, const std::vector<SliceSetup>& slices);
 
 /// Where the looks of `tile` through `slice` can fall in the tangent plane.
 Box look_bounds(const EyeTile& tile, const SliceSetup& slice, double lens_to_pupil_m);

@@ -52,6 +52,8 @@ struct ObjectMeasure {
   std::uint64_t samples = 0;  ///< lit samples of slices
   std::uint64_t beyond = 0;   ///< those that want a power more than 0.3 D beyond the outermost slice
   double worst_beyond_d = 0.0;
+  double worst_below_d = 0.0;  ///< the same below the lowest slice alone
+  double worst_above_d = 0.0;  ///< and above the highest
 };
 
 /// What compiling measured of a frame.

@@ -25,6 +25,7 @@ struct alignas(32) TileHits {
 /// The triangles of a view in their cells, as plain pointers.
 struct KernelView {
   const ViewTriangle* triangles;
+  const TriangleBounds* bounds;
   CellGrid grid;
   const std::uint32_t* begin;
   const std::uint32_t* items;
@@ -35,8 +36,11 @@ struct KernelView {
 struct alignas(32) TileLooks {
   float x[tile_samples];
   float y[tile_samples];
-  Box row[tile_side];  ///< of each row, from the tile's origin
-  Box all;             ///< in the tangent plane
+  float row_min_x[tile_side];  ///< bounds of each row, from the tile's origin
+  float row_min_y[tile_side];
+  float row_max_x[tile_side];
+  float row_max_y[tile_side];
+  Box all;  ///< in the tangent plane
 };
 
 /// The nearest triangle along each look.

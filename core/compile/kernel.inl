@@ -6,6 +6,8 @@ namespace {
 
 using Floats = float __attribute__((vector_size(32)));
 using Ints = std::int32_t __attribute__((vector_size(32)));
+using Doubles = double __attribute__((vector_size(32)));
+using FourFloats = float __attribute__((vector_size(16)));
 
 constexpr int lanes = tile_side;
 
@@ -14,28 +16,30 @@ Ints load(const std::int32_t* from) { return *reinterpret_cast<const Ints*>(from
 void store(float* to, Floats value) { *reinterpret_cast<Floats*>(to) = value; }
 void store(std::int32_t* to, Ints value) { *reinterpret_cast<Ints*>(to) = value; }
 
-bool any(Ints mask) {
-  using Words = std::int64_t __attribute__((vector_size(32)));
-  const Words w = reinterpret_cast<Words>(mask);
-  return (w[0] | w[1] | w[2] | w[3]) != 0;
-}
-
 /// st - 1 with st the stretch of looks through the lens: c d / (d + d_e - c d) with c = power * d_e.
 Floats stretch_less_one(Floats surface_m, float bend, float lens_to_pupil_m) {
   const Floats bent = bend * surface_m;
   return bent / (surface_m + lens_to_pupil_m - bent);
 }
 
-void grow(Box& box, const float* x, const float* y) {
-  for (int i = 0; i < lanes; ++i) {  // a NaN never compares, so samples that see nothing do not count
-    if (x[i] < box.min_x) box.min_x = x[i];
-    if (x[i] > box.max_x) box.max_x = x[i];
-    if (y[i] < box.min_y) box.min_y = y[i];
-    if (y[i] > box.max_y) box.max_y = y[i];
-  }
-}
-
 constexpr Box nothing{__builtin_inff(), __builtin_inff(), -__builtin_inff(), -__builtin_inff()};
+
+/// Bounds of one row. A NaN never compares, so samples that see nothing do not count.
+void bound_row(TileLooks& looks, int row) {
+  const float* const x = looks.x + row * lanes;
+  const float* const y = looks.y + row * lanes;
+  Box box = nothing;
+  for (int i = 0; i < lanes; ++i) {
+    box.min_x = x[i] < box.min_x ? x[i] : box.min_x;
+    box.max_x = x[i] > box.max_x ? x[i] : box.max_x;
+    box.min_y = y[i] < box.min_y ? y[i] : box.min_y;
+    box.max_y = y[i] > box.max_y ? y[i] : box.max_y;
+  }
+  looks.row_min_x[row] = box.min_x;
+  looks.row_min_y[row] = box.min_y;
+  looks.row_max_x[row] = box.max_x;
+  looks.row_max_y[row] = box.max_y;
+}
 
 void place(const TileHits& hits, double origin_x, double origin_y, float bend, float lens_to_pupil_m, TileLooks& out) {
   const float ox = static_cast<float>(origin_x);
@@ -48,13 +52,11 @@ void place(const TileHits& hits, double origin_x, double origin_y, float bend, f
     const Floats stretch = stretch_less_one(load(hits.surface_m + at), bend, lens_to_pupil_m);
     store(out.x + at, x + (ox + x) * stretch);
     store(out.y + at, y + (oy + y) * stretch);
-    out.row[row] = nothing;
-    grow(out.row[row], out.x + at, out.y + at);
-    const Box& box = out.row[row];
-    if (box.min_x < all.min_x) all.min_x = box.min_x;
-    if (box.min_y < all.min_y) all.min_y = box.min_y;
-    if (box.max_x > all.max_x) all.max_x = box.max_x;
-    if (box.max_y > all.max_y) all.max_y = box.max_y;
+    bound_row(out, row);
+    if (out.row_min_x[row] < all.min_x) all.min_x = out.row_min_x[row];
+    if (out.row_min_y[row] < all.min_y) all.min_y = out.row_min_y[row];
+    if (out.row_max_x[row] > all.max_x) all.max_x = out.row_max_x[row];
+    if (out.row_max_y[row] > all.max_y) all.max_y = out.row_max_y[row];
   }
   // Back to the tangent plane, wide enough for the rounding of triangles' boxes.
   const float slack = 1e-6f * (1.0f + __builtin_fabsf(ox) + __builtin_fabsf(oy));
@@ -65,39 +67,47 @@ bool apart(const Box& a, const Box& b) {
   return !(a.min_x <= b.max_x && b.min_x <= a.max_x && a.min_y <= b.max_y && b.min_y <= a.max_y);
 }
 
-/// An affine function about the tile's origin: computed in double, so that single precision holds the small rest.
-struct Local {
-  float x, y, constant;
-};
-
-Local local(const Affine& f, double origin_x, double origin_y) {
-  return {static_cast<float>(f.x), static_cast<float>(f.y),
-          static_cast<float>(f.x * origin_x + f.y * origin_y + f.constant)};
+/// The rows of a tile whose bounds meet a box, as a bit each.
+unsigned rows_touched(const TileLooks& looks, const Box& box) {
+  const Ints touched = (load(looks.row_min_x) <= box.max_x) & (load(looks.row_max_x) >= box.min_x) &
+                       (load(looks.row_min_y) <= box.max_y) & (load(looks.row_max_y) >= box.min_y);
+  using Words = std::int64_t __attribute__((vector_size(32)));
+  constexpr Ints bit_of_row = {1, 2, 4, 8, 16, 32, 64, 128};
+  const Words words = reinterpret_cast<Words>(touched & bit_of_row);
+  const std::int64_t both = (words[0] | words[1]) | (words[2] | words[3]);
+  return static_cast<unsigned>(both | both >> 32) & 0xffu;
 }
 
-Floats at(const Local& f, Floats x, Floats y) { return f.x * x + f.y * y + f.constant; }
+/// What stays the same for all triangles of a tile.
+struct Tile {
+  double origin_x, origin_y;
+  float x, y, slack;
+  float highest;  ///< inverse depths above are too near to be seen
+};
 
-void cover_one(const ViewTriangle& triangle, std::int32_t index, const TileLooks& looks, double origin_x,
-               double origin_y, float highest, TileNearest& out) {
-  const Local e0 = local(triangle.edge[0], origin_x, origin_y);
-  const Local e1 = local(triangle.edge[1], origin_x, origin_y);
-  const Local e2 = local(triangle.edge[2], origin_x, origin_y);
-  const Local depth = local(triangle.inverse_depth, origin_x, origin_y);
-  const float ox = static_cast<float>(origin_x);
-  const float oy = static_cast<float>(origin_y);
-  const float slack = 1e-6f * (1.0f + __builtin_fabsf(ox) + __builtin_fabsf(oy));
-  const Box box{triangle.box.min_x - ox - slack, triangle.box.min_y - oy - slack, triangle.box.max_x - ox + slack,
-                triangle.box.max_y - oy + slack};
-  for (int row = 0; row < tile_side; ++row) {
-    if (apart(box, looks.row[row])) continue;
-    const int first = row * lanes;
+void cover_one(const ViewTriangle& triangle, const Box& bounds, std::int32_t index, const TileLooks& looks,
+               const Tile& tile, TileNearest& out) {
+  const Box box{bounds.min_x - tile.x - tile.slack, bounds.min_y - tile.y - tile.slack,
+                bounds.max_x - tile.x + tile.slack, bounds.max_y - tile.y + tile.slack};
+  unsigned rows = rows_touched(looks, box);
+  if (rows == 0) return;
+  // Moved to the tile's origin in double, so that single precision holds the small rest.
+  const Doubles& a = *reinterpret_cast<const Doubles*>(triangle.a);
+  const Doubles& b = *reinterpret_cast<const Doubles*>(triangle.b);
+  const Doubles& c = *reinterpret_cast<const Doubles*>(triangle.c);
+  const FourFloats per_x = __builtin_convertvector(a, FourFloats);
+  const FourFloats per_y = __builtin_convertvector(b, FourFloats);
+  const FourFloats rest = __builtin_convertvector(a * tile.origin_x + b * tile.origin_y + c, FourFloats);
+  for (; rows != 0; rows &= rows - 1) {
+    const int first = __builtin_ctz(rows) * lanes;
     const Floats x = load(looks.x + first);
     const Floats y = load(looks.y + first);
-    const Ints inside = (at(e0, x, y) >= 0.0f) & (at(e1, x, y) >= 0.0f) & (at(e2, x, y) >= 0.0f);
-    const Floats r = at(depth, x, y);
+    const Ints inside = (per_x[0] * x + per_y[0] * y + rest[0] >= 0.0f) &
+                        (per_x[1] * x + per_y[1] * y + rest[1] >= 0.0f) &
+                        (per_x[2] * x + per_y[2] * y + rest[2] >= 0.0f);
+    const Floats r = per_x[3] * x + per_y[3] * y + rest[3];
     const Floats best = load(out.inverse_m + first);
-    const Ints nearer = inside & (r > best) & (r <= highest);
-    if (!any(nearer)) continue;
+    const Ints nearer = inside & (r > best) & (r <= tile.highest);
     store(out.inverse_m + first, nearer ? r : best);
     store(out.triangle + first, nearer ? Ints{} + index : load(out.triangle + first));
   }
@@ -110,7 +120,10 @@ void cover(const KernelView& view, const TileLooks& looks, double origin_x, doub
   }
   if (!(looks.all.min_x <= looks.all.max_x)) return;
   const CellGrid& grid = view.grid;
-  const float highest = 1.0f / view.nearest_m;
+  const float x = static_cast<float>(origin_x);
+  const float y = static_cast<float>(origin_y);
+  const Tile tile{
+      origin_x, origin_y, x, y, 1e-6f * (1.0f + __builtin_fabsf(x) + __builtin_fabsf(y)), 1.0f / view.nearest_m};
   const int first_column = column_of(grid, looks.all.min_x);
   const int last_column = column_of(grid, looks.all.max_x);
   const int first_row = row_of(grid, looks.all.min_y);
@@ -120,12 +133,12 @@ void cover(const KernelView& view, const TileLooks& looks, double origin_x, doub
       const std::uint32_t* const begin = view.begin + (row * grid.columns + column);
       for (std::uint32_t i = begin[0]; i < begin[1]; ++i) {
         const std::uint32_t index = view.items[i];
-        const ViewTriangle& triangle = view.triangles[index];
-        if (apart(triangle.box, looks.all)) continue;
+        const Box& box = view.bounds[index].box;
+        if (apart(box, looks.all)) continue;
         // A triangle in several cells is taken in the first of them that the tile visits.
-        if (column != first_column && column_of(grid, triangle.box.min_x) != column) continue;
-        if (row != first_row && row_of(grid, triangle.box.min_y) != row) continue;
-        cover_one(triangle, static_cast<std::int32_t>(index), looks, origin_x, origin_y, highest, out);
+        if (column != first_column && column_of(grid, box.min_x) != column) continue;
+        if (row != first_row && row_of(grid, box.min_y) != row) continue;
+        cover_one(view.triangles[index], box, static_cast<std::int32_t>(index), looks, tile, out);
       }
     }
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -10,8 +11,9 @@ namespace focalstage {
 namespace {
 
 glm::dvec3 checker(const Finish& finish, const glm::dvec2& uv) {
-  const double cell = std::floor(uv.x * finish.squares.x) + std::floor(uv.y * finish.squares.y);
-  return std::fmod(cell, 2.0) == 0.0 ? finish.a : finish.b;
+  const auto cell = static_cast<std::int64_t>(std::floor(uv.x * finish.squares.x)) +
+                    static_cast<std::int64_t>(std::floor(uv.y * finish.squares.y));
+  return (cell & 1) == 0 ? finish.a : finish.b;
 }
 
 /// What one light adds at `point` of a surface with unit `normal`, both in the world.
@@ -71,9 +73,9 @@ glm::dvec3 Shader::light(const ViewTriangle& triangle, const glm::dvec3& weights
 
 glm::dvec3 Shader::color(const ViewTriangle& triangle, double look_x, double look_y) const {
   if (uniform_) return uniform_color_;
-  glm::dvec3 weights{triangle.edge[0].at(look_x, look_y), triangle.edge[1].at(look_x, look_y),
-                     triangle.edge[2].at(look_x, look_y)};
-  weights /= weights.x + weights.y + weights.z;
+  glm::dvec3 weights{triangle.edge(0, look_x, look_y), triangle.edge(1, look_x, look_y),
+                     triangle.edge(2, look_x, look_y)};
+  weights *= 1.0 / (weights.x + weights.y + weights.z);
   const Mesh& mesh = *drawable_->mesh;
   glm::dvec2 uv(0.0);
   if (needs_uv_) {
@@ -83,7 +85,7 @@ glm::dvec3 Shader::color(const ViewTriangle& triangle, double look_x, double loo
   const glm::dvec3 own = base(uv);
   if (!lit_) return own;
   const glm::dvec3 look_world = world_from_eye_.direction({look_x, look_y, -1.0});
-  return own * light(triangle, weights, look_world, 1.0 / triangle.inverse_depth.at(look_x, look_y));
+  return own * light(triangle, weights, look_world, 1.0 / triangle.inverse_depth(look_x, look_y));
 }
 
 }  // namespace focalstage

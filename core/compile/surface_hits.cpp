@@ -20,33 +20,6 @@ void take_in(Box& box, float x, float y) {
   box.max_y = std::max(box.max_y, y);
 }
 
-/// Single-precision looks of one tile about the first that is a number; where there is none, `any` stays false.
-struct LocalLooks {
-  TileLooks looks;
-  double origin_x = 0.0;
-  double origin_y = 0.0;
-  bool any = false;
-};
-
-LocalLooks local_looks(const double* x, const double* y, const Kernel& kernel) {
-  LocalLooks local;
-  TileHits plain;
-  for (int i = 0; i < tile_samples; ++i) {
-    if (!local.any && x[i] == x[i]) {
-      local.any = true;
-      local.origin_x = x[i];
-      local.origin_y = y[i];
-    }
-    plain.surface_m[i] = 1.0f;
-  }
-  for (int i = 0; i < tile_samples; ++i) {
-    plain.x[i] = static_cast<float>(x[i] - local.origin_x);
-    plain.y[i] = static_cast<float>(y[i] - local.origin_y);
-  }
-  kernel.place(plain, local.origin_x, local.origin_y, 0.0f, 0.0f, local.looks);
-  return local;
-}
-
 TileRays rays_of_tile(const ProjectorModel& projector, int column, int row, double offset_x, double offset_y) {
   TileRays rays;
   for (int i = 0; i < tile_samples; ++i) {
@@ -82,7 +55,7 @@ void meet(const TileRays& rays, const ViewTriangles& view, const KernelView& in_
   for (int i = 0; i < tile_samples; ++i) {
     if (nearest.triangle[i] < 0) continue;
     const ViewTriangle& triangle = view.triangles[static_cast<std::size_t>(nearest.triangle[i])];
-    const double depth_m = 1.0 / triangle.inverse_depth.at(rays.x[i], rays.y[i]);
+    const double depth_m = 1.0 / triangle.inverse_depth(rays.x[i], rays.y[i]);
     met.any = true;
     met.drawable[i] = static_cast<std::int32_t>(triangle.drawable);
     met.triangle[i] = triangle.triangle;
@@ -94,11 +67,30 @@ void meet(const TileRays& rays, const ViewTriangles& view, const KernelView& in_
 
 }  // namespace
 
+LocalLooks local_looks(const double* x, const double* y, const Kernel& kernel) {
+  LocalLooks local;
+  TileHits plain;
+  for (int i = 0; i < tile_samples; ++i) {
+    if (!local.any && x[i] == x[i]) {
+      local.any = true;
+      local.origin_x = x[i];
+      local.origin_y = y[i];
+    }
+    plain.surface_m[i] = 1.0f;
+  }
+  for (int i = 0; i < tile_samples; ++i) {
+    plain.x[i] = static_cast<float>(x[i] - local.origin_x);
+    plain.y[i] = static_cast<float>(y[i] - local.origin_y);
+  }
+  kernel.place(plain, local.origin_x, local.origin_y, 0.0f, 0.0f, local.looks);
+  return local;
+}
+
 double nearest_seen_m(double lens_to_pupil_m) { return lens_to_pupil_m + 1e-3; }
 
 KernelView kernel_view(const ViewTriangles& view, const Cells& cells) {
-  return {view.triangles.data(), cells.grid, cells.begin.data(), cells.items.data(),
-          static_cast<float>(view.nearest_m)};
+  return {view.triangles.data(), view.bounds.data(), cells.grid,
+          cells.begin.data(),    cells.items.data(), static_cast<float>(view.nearest_m)};
 }
 
 ProjectorRays projector_rays(const ProjectorModel& projector, int samples_per_pixel) {
@@ -120,8 +112,10 @@ ProjectorRays projector_rays(const ProjectorModel& projector, int samples_per_pi
 ProjectorHits projector_hits(const ProjectorRays& rays, const ProjectorModel& projector,
                              const std::vector<ViewDrawable>& surfaces, const Kernel& kernel) {
   const Box bounds = bounds_of(rays);
-  const ViewTriangles view = set_up(surfaces, projector.world_from_projector.inverse(), nearest_to_projector_m, bounds);
-  const Cells cells = sort_into_cells(view, bounds, rays.grid.columns(), rays.grid.rows(), {}, 0.0);
+  ViewTriangles view;
+  set_up(view, surfaces, projector.world_from_projector.inverse(), nearest_to_projector_m, bounds);
+  Cells cells;
+  sort_into_cells(cells, view, bounds, rays.grid.columns(), rays.grid.rows(), {}, 0.0);
   const KernelView in_cells = kernel_view(view, cells);
   ProjectorHits hits;
   hits.tiles.resize(rays.tiles.size());

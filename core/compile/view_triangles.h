@@ -19,37 +19,53 @@ namespace focalstage {
 // So one set-up serves coverage, depth and interpolation, holds for corners behind the viewer too (no clipping), and
 // two triangles that share an edge get exactly opposite values, so that no look slips between them.
 
-/// x * look.x + y * look.y + constant.
-struct Affine {
-  double x, y, constant;
-
-  double at(double look_x, double look_y) const { return x * look_x + y * look_y + constant; }
-};
-
-/// One triangle of a view.
-struct ViewTriangle {
-  Affine edge[3];          ///< inside: none is negative
-  Affine inverse_depth;    ///< 1 / distance along the axis, from the view point
-  Box box;                 ///< of its part in front, rounded outwards
+/// One triangle of a view: four functions a * look.x + b * look.y + c of the look, side by side so that one vector
+/// instruction moves all of them to a tile. 0 to 2: the triple products of the edges, none negative inside. 3: 1 /
+/// distance along the axis, from the view point.
+struct alignas(32) ViewTriangle {
+  double a[4];
+  double b[4];
+  double c[4];
   std::uint32_t drawable;  ///< in the list given
   std::uint32_t triangle;  ///< in the drawable's mesh
+
+  double edge(int i, double look_x, double look_y) const { return a[i] * look_x + b[i] * look_y + c[i]; }
+  double inverse_depth(double look_x, double look_y) const { return edge(3, look_x, look_y); }
+};
+
+/// Bounds of the part of a triangle in front of the viewer, rounded outwards.
+struct TriangleBounds {
+  Box box;
+  float min_inverse_m;
+  float max_inverse_m;
 };
 
 /// A drawable and what a view must know of it.
 struct ViewDrawable {
   const Drawable* drawable = nullptr;
-  bool closed = false;      ///< bounds a solid: backs can be left out when seen from outside
+  bool solid = false;       ///< bounds a solid: backs can be left out when seen from outside
   std::uint32_t owner = 0;  ///< object or surface, in the stage's list
 };
 
+/// The triangles of a view. They stand in runs with unused places between, as their makers on several threads left
+/// them; an index names a place.
 struct ViewTriangles {
+  struct Run {
+    std::uint32_t first;
+    std::uint32_t count;
+  };
+
   std::vector<ViewTriangle> triangles;
+  std::vector<TriangleBounds> bounds;
+  std::vector<Run> runs;
   double nearest_m = 0.0;  ///< looks pass through what is nearer than this
+
+  bool empty() const;
 };
 
 /// Sets up all triangles that can be met within `bounds`, in the order of the drawables and their meshes, on as many
-/// threads as the caller's arena has.
-ViewTriangles set_up(const std::vector<ViewDrawable>& drawables, const Rigid& view_from_world, double nearest_m,
-                     const Box& bounds);
+/// threads as the caller's arena has. Keeps the memory that `view` already has.
+void set_up(ViewTriangles& view, const std::vector<ViewDrawable>& drawables, const Rigid& view_from_world,
+            double nearest_m, const Box& bounds);
 
 }  // namespace focalstage

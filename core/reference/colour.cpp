@@ -66,13 +66,13 @@ glm::dvec3 normal_at(const Drawable& drawable, const glm::uvec3& corner, const g
   const Mesh& mesh = *drawable.mesh;
   const glm::dmat3 normals_from_mesh = glm::transpose(glm::inverse(glm::dmat3(drawable.world_from_mesh)));
   const glm::dvec3& a = mesh.positions_m[corner.x];
-  glm::dvec3 normal = glm::cross(mesh.positions_m[corner.y] - a, mesh.positions_m[corner.z] - a);
-  if (!mesh.normals.empty()) {
-    const glm::dvec3 smooth = blend(mesh.normals, corner, shares);
-    if (glm::dot(smooth, smooth) > 0.0) normal = smooth;
-  }
-  normal = glm::normalize(normals_from_mesh * normal);
-  return glm::dot(normal, towards_viewer) < 0.0 ? -normal : normal;
+  const glm::dvec3 normal = mesh.normals.empty()
+                                ? glm::cross(mesh.positions_m[corner.y] - a, mesh.positions_m[corner.z] - a)
+                                : blend(mesh.normals, corner, shares);
+  const glm::dvec3 turned = normals_from_mesh * normal;
+  const double length = glm::length(turned);
+  if (length == 0.0) return turned;
+  return turned / (glm::dot(turned, towards_viewer) < 0.0 ? -length : length);
 }
 
 }  // namespace

@@ -1,6 +1,10 @@
 #include "core/reference/view.h"
 
+#include <utility>
+
 #include <glm/geometric.hpp>
+
+#include "core/mesh/smooth_parts.h"
 
 namespace focalstage {
 namespace {
@@ -41,6 +45,19 @@ Result<View> view_of(const std::vector<StagedSurface>& surfaces, const Rigid& vi
 
 Result<View> view_of(const std::vector<StagedObject>& objects, const Rigid& view_from_world, double nearest_m) {
   return view_of_things(objects, view_from_world, nearest_m);
+}
+
+std::vector<double> part_depths_m(const std::vector<StagedSurface>& surfaces, const Rigid& view_from_world) {
+  std::vector<double> depths_m;
+  for (const StagedSurface& surface : surfaces) {
+    for (const Drawable& drawn : surface.drawables) {
+      const SmoothParts parts = placed(smooth_parts(*drawn.mesh), *drawn.mesh, drawn.world_from_mesh);
+      for (const std::uint32_t part : parts.part_of_triangle) {
+        depths_m.push_back(-view_from_world.point(parts.centre_m[part]).z);
+      }
+    }
+  }
+  return depths_m;
 }
 
 }  // namespace focalstage

@@ -30,4 +30,7 @@ struct View {
 Result<View> view_of(const std::vector<StagedSurface>& surfaces, const Rigid& view_from_world, double nearest_m);
 Result<View> view_of(const std::vector<StagedObject>& objects, const Rigid& view_from_world, double nearest_m);
 
+/// For each face of the surfaces' view, in its order: how far the centre of its smooth part lies along -Z.
+std::vector<double> part_depths_m(const std::vector<StagedSurface>& surfaces, const Rigid& view_from_world);
+
 }  // namespace focalstage

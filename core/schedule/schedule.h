@@ -44,14 +44,22 @@ struct Schedule {
 
 /// An exposure that cannot be had, or that comes out wrong, with how much.
 struct SlotTrouble {
-  enum class Kind { outside_sweep, hidden_by_shutter, overlap, smear, no_zero_crossing };
+  /// outside_sweep      the sweep never reaches the power. Amount: the power; limit: the sweep's nearer extreme
+  /// hidden_by_shutter  a shutter moves, or the eye's half ends, during the exposure. Amount: for how many seconds;
+  /// limit 0 overlap            the next exposure starts too soon. Amount: seconds from start to start; limit: as many
+  /// as it takes smear              the power changes by too much. Amount: by how much; limit: 0.3 D no_zero_crossing
+  /// light for surfaces, and the sweep never passes zero. Amount: its extreme nearest zero; limit 0 bad_waveform the
+  /// eye's power is no curve that passes each power once up and once down; nothing is timed
+  enum class Kind { outside_sweep, hidden_by_shutter, overlap, smear, no_zero_crossing, bad_waveform };
 
   Kind kind = Kind::overlap;
-  int image = -1;
-  int other_image = -1;  ///< overlap: the other one
+  int image = -1;        ///< bad_waveform: none
+  int other_image = -1;  ///< overlap: the next one
   Side eye = Side::left;
-  double amount = 0.0;   ///< outside_sweep and smear: dioptres; hidden and overlap: seconds
+  double amount = 0.0;
   double limit = 0.0;
+
+  bool operator==(const SlotTrouble&) const = default;
 };
 
 struct ScheduleResult {
@@ -59,8 +67,9 @@ struct ScheduleResult {
   std::vector<SlotTrouble> troubles;
 };
 
-/// Times every image of the plan for both eyes (design section 6). What cannot be timed is left out and named in
-/// `troubles`; the schedule holds the rest. Projector number `projector` sets rate, exposure and latency.
+/// Times every image of the plan for both eyes (design section 6). What cannot be shown (outside_sweep,
+/// hidden_by_shutter, no_zero_crossing, bad_waveform) is left out and named in `troubles`; the schedule holds the rest.
+/// Projector number `projector` sets rate, exposure and latency.
 ScheduleResult make_schedule(const Project& project, const std::vector<ImageSpec>& images, std::size_t projector = 0);
 
 }  // namespace focalstage

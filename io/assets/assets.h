@@ -18,6 +18,8 @@ struct AssetFile {
   std::string path;  ///< relative to the project folder, with forward slashes
   std::string sha256;
   std::vector<std::byte> bytes;
+
+  bool operator==(const AssetFile&) const = default;
 };
 
 struct LoadedAssets {

@@ -13,9 +13,9 @@ namespace focalstage {
 
 struct LoadedProject {
   Project project;
-  std::vector<Finding> notes;     ///< info: unknown keys kept, an older version read
-  std::filesystem::path file;     ///< NAME/NAME.focal
-  std::string text;               ///< the bytes as read
+  std::vector<Finding> notes;  ///< info: unknown keys kept, an older version read
+  std::filesystem::path file;  ///< NAME/NAME.focal
+  std::string text;            ///< the bytes as read
 };
 
 /// Finds the file of PROJECT: a `NAME.focal`, or the folder that holds one.

@@ -1,56 +1,27 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <stop_token>
 #include <string>
-#include <vector>
 
 #include "core/base/result.h"
-#include "core/scene/finding.h"
-#include "core/scene/project.h"
+#include "io/protocol/rig_values.h"
 
 namespace focalstage {
 
-/// What a rig says of itself: enough to compile for it.
-struct RigDescription {
-  std::string name;
-  std::string kind;  ///< "sim" or the hardware's
-  std::vector<Projector> projectors;
-  Glasses glasses;   ///< measured lens response per eye, shutter times, limits
-};
+/// Where a runtime listens unless told otherwise.
+inline constexpr const char* default_rig_address = "127.0.0.1:50371";
 
-/// Asked beside delivered for one exposure, worst over the sweeps watched.
-struct SlotReport {
-  int slot = 0;
-  int image = 0;
-  int eye = 0;
-  double asked_power_d = 0.0;
-  double delivered_power_d = 0.0;
-  double asked_s = 0.0;
-  double delivered_s = 0.0;
-  bool right_image = false;
-  bool own_shutter_open = false;
-  bool other_shutter_closed = false;
-  bool delivered = false;  ///< all of it within 0.02 D and 20 us
-  std::uint64_t exposures = 0;
-  std::uint64_t missed = 0;
-};
-
-struct RigState {
-  std::string state;       ///< "empty", "ready", "playing", "holding", "dark"
-  std::string show_sha256;
-  std::uint64_t sweeps = 0;
-  std::uint64_t missed_exposures = 0;
-  double lens_phase = 0.0;
-  double temperature_c = 0.0;
-  std::string fault;       ///< latched; empty when none
-  std::vector<SlotReport> slots;
-};
-
-/// A connection to a runtime. Every call has a deadline; faults: "rig.unreachable", "rig.refused", "rig.differs", ...
+/// A connection to a runtime. Every call has a deadline. Takes the rig for itself with the first call that changes
+/// something, and lets go at the end.
+///
+/// Faults: "rig.unreachable" (nobody answers in time), "rig.refused" (not in this state, not this show), "rig.differs"
+/// (the show is made for another rig), "rig.held" (another editor holds it), "rig.damaged" (names the chunk),
+/// "rig.disk-full"; "file.*" for the show to be pushed.
 class RigClient {
  public:
   static Result<RigClient> connect(const std::string& host_port, std::chrono::milliseconds deadline);
@@ -59,18 +30,23 @@ class RigClient {
   RigClient& operator=(RigClient&&) noexcept;
   ~RigClient();
 
-  Result<RigDescription> describe();
+  /// The lens response at the harmonics of a sweep of `frequency_hz`.
+  Result<RigDescription> describe(double frequency_hz = 60.0);
 
   /// Pushes in 1 MiB chunks, resuming where an earlier push of the same bytes stopped; optionally activates it.
+  /// "rig.cancelled" within one chunk of a stop request; what arrived stays for the next push.
   Status push(const std::filesystem::path& show, bool activate, const std::function<void(double share)>& progress,
               std::stop_token stop = {});
 
-  Status play();
+  Status play(std::uint64_t sweeps = 0);  ///< then holds; 0: goes on until told otherwise
   Status hold();
   Status blackout();
   Status go();  ///< clears a latched fault or blackout
   Status cue(const std::string& name);
   Result<RigState> state();
+
+  /// Calls `seen` with the state every `interval` until it returns false or the rig goes away.
+  Status watch(std::chrono::milliseconds interval, const std::function<bool(const RigState&)>& seen);
 
  private:
   struct State;

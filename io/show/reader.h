@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
-#include <span>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/compile/frame.h"
@@ -23,6 +23,12 @@ class ShowReader {
 
   const ShowHeader& header() const;
 
+  /// What compiling measured, per frame; objects in the project's order.
+  const std::vector<FrameMeasure>& measures() const;
+
+  /// Lower-case hex SHA-256 of the show as its seal holds it (io/show/seal.h): names the show.
+  const std::string& sha256() const;
+
   /// All images of one frame, or one of them.
   Result<FrameImages> frame(int frame) const;
   Result<FrameImages> image(int frame, int image) const;
@@ -30,6 +36,7 @@ class ShowReader {
  private:
   struct State;
   explicit ShowReader(std::unique_ptr<State> state);
+  Result<FrameImages> images(int frame, int first_image, int count) const;
   std::unique_ptr<State> state_;
 };
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/base/result.h"
+#include "core/compile/frame.h"
 #include "core/optics/image_plan.h"
 #include "core/scene/project.h"
 #include "core/schedule/schedule.h"
@@ -34,13 +36,18 @@ struct ShowCue {
   bool operator==(const ShowCue&) const = default;
 };
 
+/// What this program signs its shows with: "focalstage 0.1.0".
+std::string this_compiler();
+
 /// Everything in a show file but the images of its frames (design section 7).
 struct ShowHeader {
+  std::string compiler = this_compiler();
   std::string project_text;
   std::vector<AssetFile> assets;
   double frequency_hz = 60.0;
   double frames_per_second = 2000.0;
   double rate_hz = 60.0;
+  int first_frame = 0;  ///< the project's frame that the show's frame 0 is
   int frames = 1;
   int width_px = 0;
   int height_px = 0;
@@ -49,6 +56,23 @@ struct ShowHeader {
   Schedule schedule;
   std::vector<FramePoses> poses;
   std::vector<ShowCue> cues;
+
+  bool operator==(const ShowHeader&) const = default;
 };
+
+/// A half-open range of the project's frames.
+struct FrameRange {
+  int begin = 0;
+  int end = 1;
+};
+
+/// The header of the frames `range` of a project: frame k shows time k/rate_hz. Cues outside the range are left out,
+/// cues after the project's end fall on its last frame. `text`: the project's file as read.
+ShowHeader make_show_header(const Project& project, std::string text, const LoadedAssets& assets,
+                            const Schedule& schedule, const CompileSettings& settings, FrameRange range);
+
+/// What keeps a header from being a show's (sizes, ranges, order), as a Fault "show.invalid" that names the dataset in
+/// `source`. The writer and the reader hold every header against it.
+Status check_header(const ShowHeader& header, const std::string& source);
 
 }  // namespace focalstage

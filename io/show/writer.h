@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <stop_token>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/compile/frame.h"
@@ -16,7 +18,8 @@ class ShowWriter {
  public:
   /// Starts a show at `path`. With `resume`, takes over the frames of a part of the same header; another header's part,
   /// a damaged tail or none is started over without a word.
-  static Result<ShowWriter> start(const std::filesystem::path& path, const ShowHeader& header, bool resume, int threads);
+  static Result<ShowWriter> start(const std::filesystem::path& path, const ShowHeader& header, bool resume,
+                                  int threads);
 
   ShowWriter(ShowWriter&&) noexcept;
   ShowWriter& operator=(ShowWriter&&) noexcept;
@@ -24,11 +27,18 @@ class ShowWriter {
 
   bool has_frame(int frame) const;
 
-  /// Compresses the images of one frame in parallel and appends them durably. In any order. "show.disk-full" etc.
-  Status add_frame(int frame, const FrameImages& images);
+  /// Compresses the images of one frame in parallel and appends them, with what compiling measured. In any order, from
+  /// any thread. A process killed after it returns has lost nothing; a power cut, at most the last half second.
+  /// Faults: "show.disk-full", "show.unwritable", "show.frame" (wrong size or number, or already there).
+  Status add_frame(int frame, const FrameImages& images, const FrameMeasure& measure = {});
 
-  /// Assembles the show and removes the part. Every frame must be there.
-  Status finish();
+  /// What was measured of every frame there is, those of an earlier run included. Objects stand in the project's order,
+  /// those not staged with zeros.
+  const std::vector<FrameMeasure>& measures() const;
+
+  /// Assembles the show and removes the part. Every frame must be there ("show.missing-frame"). A stop leaves the part
+  /// for a later resume ("show.cancelled").
+  Status finish(std::stop_token stop = {});
 
  private:
   struct State;

@@ -94,6 +94,21 @@ TEST_CASE("the picture grows and shrinks with the power as the paper's resize sa
   CHECK(lit_bytes(compiled(stage, settings), 2) == 300);
 }
 
+TEST_CASE("planar breathing resizes all of a smooth part by the distance of its centre") {
+  // A screen that recedes to the right, 0.515 from the pupil at its centre, which lies straight ahead; the lens, for
+  // once 0.1 m before the pupil, at 8 D. Planar: d_c = 0.415, so the edge at the look 0.3 stands at the straight look
+  // 0.3 (1 - 0.8 * 0.415 / 0.515) = 0.106602: pixel centres 0..106. Exactly: the point at the straight look s lies
+  // 0.515 + 0.16 m deep with 0.6 m = s * depth; at s = 0.10529 that is 0.52988: 0.3 (1 - 0.8 * 0.42988 / 0.52988).
+  const Drawable edge = rectangle({-3, -3}, {0.3 * 0.415, 3}, -0.415);
+  Stage stage = room(edge, {DepthMode::slice, 0.0, 0, {}});
+  stage.surfaces[0].drawables[0].world_from_mesh[0] = {0.6, 0.0, -0.16, 0.0};
+  CompileSettings settings = row_of(400, {8.0});
+  settings.lens_to_pupil_m = 0.1;
+  CHECK(lit_bytes(compiled(stage, settings), 0) == 105);
+  settings.slices.breathing = Breathing::planar;
+  CHECK(lit_bytes(compiled(stage, settings), 0) == 107);
+}
+
 TEST_CASE("depth modes: fixed and offset vergences, and light beyond the outermost slice") {
   const CompileSettings settings = row_of(1, {-1.0, 0.0, 1.0});
   // fixed 2.25 D: v = 2 - 2.25 = -0.25 D.
@@ -199,7 +214,9 @@ TEST_CASE("surfaces outside the projector's depth of field are counted with how 
   const CompiledFrame frame = compiled(room(wide_at_40cm), settings);
   CHECK(frame.measure.surface_pixels == 5);
   CHECK(frame.measure.defocused_pixels == 5);
-  CHECK(frame.measure.worst_defocus_d == doctest::Approx(1.0 / 0.515 - 1.0));
+  CHECK(frame.measure.worst_defocus_d == doctest::Approx(1.0 / 0.515 - 1.0 - 0.25));  // beyond half the depth of field
+  settings.depth_of_field_d = 2.0;
+  CHECK(compiled(room(wide_at_40cm), settings).measure.defocused_pixels == 0);
 }
 
 TEST_CASE("the rule that is not known is refused") {

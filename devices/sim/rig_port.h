@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/base/sides.h"
+
+namespace focalstage {
+
+/// One image as it travels to a projector; `owner` keeps the bytes alive.
+struct Picture {
+  std::shared_ptr<const void> owner;
+  std::span<const std::uint8_t> codes;
+};
+
+/// The same bytes, wherever they lie.
+bool same_picture(const Picture& a, const Picture& b);
+
+/// The liquid crystal is dark under voltage and clear without.
+enum class ShutterLevel { closed, open };
+
+/// All that a rig's hardware is ever given (design section 8). Times are seconds of the rig's own clock. One sweep is
+/// handed over as a whole before it begins: its drive where that changed, its images in the order of the triggers, its
+/// sync edge, its triggers and its shutter levels.
+class RigPort {
+ public:
+  RigPort() = default;
+  RigPort(const RigPort&) = delete;
+  RigPort& operator=(const RigPort&) = delete;
+  virtual ~RigPort() = default;
+
+  /// How long the projector shows an image after each trigger.
+  virtual void set_exposure(double exposure_s) = 0;
+
+  /// Refills the waveform generator of one lens: played from the next sync edge on, over and over.
+  virtual void set_drive(Side eye, std::span<const double> drive_a, double step_s) = 0;
+
+  /// The images of the sweep whose sync edge comes next, one per trigger.
+  virtual void post_images(std::vector<Picture> pictures) = 0;
+
+  virtual void sync_edge(double time_s) = 0;
+  virtual void trigger(double time_s) = 0;
+  virtual void shutter(Side eye, ShutterLevel level, double time_s) = 0;
+
+  /// Light off, shutters closed and no current from `time_s` on; whatever was handed over for later is forgotten.
+  virtual void dark(double time_s) = 0;
+};
+
+}  // namespace focalstage

@@ -1,0 +1,109 @@
+#include "devices/sim/sim_rig.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace focalstage {
+
+namespace {
+// How far back a question about lens or shutter may reach: the longest exposure and lag, with room.
+constexpr double remembered_s = 0.25;
+}  // namespace
+
+SimRig::SimRig(const SimSettings& settings, const SimFaults& faults)
+    : lens_{SimLens(settings.lens.left), SimLens(settings.lens.right)},
+      shutter_{SimShutter(settings.shutter), SimShutter(settings.shutter)},
+      projector_(settings.projector) {
+  for (const Side eye : both_sides) {
+    lens_[eye].add_lag(faults.lens_lag_s);
+    lens_[eye].scale_gain(faults.lens_gain);
+    shutter_[eye].set_late(faults.shutter_late_s[eye]);
+  }
+  if (faults.drop_trigger) projector_.drop_trigger_after(*faults.drop_trigger);
+}
+
+void SimRig::set_exposure(double exposure_s) { next_edge_.exposure_s = exposure_s; }
+
+void SimRig::set_drive(Side eye, std::span<const double> drive_a, double step_s) {
+  next_edge_.drive[eye] = Drive{{drive_a.begin(), drive_a.end()}, step_s};
+}
+
+void SimRig::post_images(std::vector<Picture> pictures) {
+  projector_.post(std::move(pictures));
+  next_edge_.posted = true;
+}
+
+void SimRig::sync_edge(double time_s) {
+  if (!next_edge_.posted) projector_.post({});
+  events_.emplace(time_s, std::exchange(next_edge_, {}));
+}
+
+void SimRig::trigger(double time_s) { events_.emplace(time_s, TriggerEvent{}); }
+
+void SimRig::shutter(Side eye, ShutterLevel level, double time_s) { events_.emplace(time_s, ShutterEvent{eye, level}); }
+
+void SimRig::dark(double time_s) {
+  run_until(time_s);
+  events_.clear();
+  next_edge_ = {};
+  projector_.forget_posted();
+  std::erase_if(running_, [&](const StartedExposure& exposure) { return exposure.start_s >= time_s; });
+  for (StartedExposure& exposure : running_) exposure.duration_s = time_s - exposure.start_s;
+  for (const Side eye : both_sides) {
+    shutter_[eye].command(ShutterLevel::closed, time_s);
+    lens_[eye].stop(time_s);
+  }
+  end_exposures(time_s);
+}
+
+void SimRig::run_until(double time_s) {
+  while (!events_.empty() && events_.begin()->first <= time_s) {
+    const auto next = events_.extract(events_.begin());
+    end_exposures(next.key());
+    std::visit([&, at_s = next.key()](auto& event) { happen(at_s, event); }, next.mapped());
+  }
+  end_exposures(time_s);
+  for (const Side eye : both_sides) {
+    shutter_[eye].forget_before(time_s - remembered_s);
+    lens_[eye].forget_before(time_s - remembered_s);
+  }
+}
+
+void SimRig::happen(double time_s, EdgeEvent& edge) {
+  if (edge.exposure_s) projector_.set_exposure(*edge.exposure_s);
+  projector_.sync_edge();
+  for (const Side eye : both_sides) {
+    if (auto& drive = edge.drive[eye]) {
+      lens_[eye].play(std::move(drive->drive_a), drive->step_s, time_s);
+    } else {
+      lens_[eye].restart(time_s);
+    }
+  }
+}
+
+void SimRig::happen(double time_s, TriggerEvent&) {
+  if (auto started = projector_.trigger(time_s)) running_.push_back(std::move(*started));
+}
+
+void SimRig::happen(double time_s, ShutterEvent& event) { shutter_[event.eye].command(event.level, time_s); }
+
+void SimRig::end_exposures(double time_s) {
+  const auto ended = [&](const StartedExposure& exposure) { return exposure.start_s + exposure.duration_s <= time_s; };
+  for (StartedExposure& started : running_) {
+    if (!ended(started)) continue;
+    DeliveredExposure light;
+    light.start_s = started.start_s;
+    light.duration_s = started.duration_s;
+    for (const Side eye : both_sides) {
+      light.power_d[eye] = lens_[eye].power_d(started.start_s + 0.5 * started.duration_s);
+      light.transmission[eye] = shutter_[eye].during(started.start_s, started.start_s + started.duration_s);
+    }
+    light.picture = started.picture;
+    delivered_.push_back(std::move(light));
+  }
+  std::erase_if(running_, ended);
+}
+
+std::vector<DeliveredExposure> SimRig::take_delivered() { return std::exchange(delivered_, {}); }
+
+}  // namespace focalstage

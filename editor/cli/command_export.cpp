@@ -1,0 +1,35 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "editor/cli/command_list.h"
+#include "editor/cli/output.h"
+#include "io/export/export.h"
+
+namespace focalstage {
+namespace {
+
+struct Options {
+  std::string show;
+  std::string folder;
+};
+
+ExitStatus run(const Options& options) {
+  const auto show = ShowReader::open(options.show);
+  if (!show) return report(show.fault());
+  if (const Status exported = export_show(*show, options.folder); !exported) return report(exported.fault());
+  const ShowHeader& header = show->header();
+  std::printf("%s: %d %s of %zu images as PNG, schedule.csv, waveform.csv, timing.vcd\n", options.folder.c_str(),
+              header.frames, header.frames == 1 ? "frame" : "frames", header.images.size());
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+Command::Run declare_export(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  app.add_option("SHOW", options->show, "the show (.h5)")->required();
+  app.add_option("-o,--output", options->folder, "the folder to write into; made if missing")->required();
+  return [options] { return run(*options); };
+}
+
+}  // namespace focalstage

@@ -1,0 +1,25 @@
+#include "editor/cli/command_list.h"
+
+#include <array>
+
+namespace focalstage {
+
+std::span<const Command> commands() {
+  static constexpr std::array table{
+      Command{"new", "make a project folder to start from", declare_new},
+      Command{"check", "find what is wrong with a project or a show", declare_check},
+      Command{"compile", "compile a project into a show", declare_compile},
+      Command{"export", "write a show as PNG, CSV and VCD for other tools", declare_export},
+      Command{"push", "send a show to a rig", declare_push},
+      Command{"rig", "ask a rig for its state, or play, hold, black out", declare_rig},
+      Command{"import", "say what a mesh or glTF file holds", declare_import},
+      Command{"apply", "apply a file of edits to a project", declare_apply},
+      Command{"adopt-rig", "set a project to what a rig measured of itself", declare_adopt_rig},
+      Command{"runtime", "start the rig daemon (focalstage-runtime)", declare_runtime},
+      Command{"edit", "open the window (focalstage-editor)", declare_edit},
+      Command{"bench", "measure the compiler's speed (focalstage-bench)", declare_bench},
+  };
+  return table;
+}
+
+}  // namespace focalstage

@@ -1,0 +1,49 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "editor/cli/command_list.h"
+#include "editor/cli/interrupt.h"
+#include "editor/cli/output.h"
+#include "editor/cli/progress.h"
+#include "editor/cli/rig_link.h"
+
+namespace focalstage {
+namespace {
+
+struct Options {
+  std::string show;
+  std::string rig;
+  bool activate = false;
+};
+
+ExitStatus run(const Options& options) {
+  Interrupt interrupt;
+  auto rig = connect_to_rig(options.rig);
+  if (!rig) return report(rig.fault());
+  Status pushed;
+  {
+    Progress bar("Pushing to " + options.rig, Progress::Style::automatic);
+    pushed = rig->push(
+        options.show, options.activate, [&](double share) { bar.update(share, 1.0, ""); }, interrupt.token());
+  }
+  if (!pushed) {
+    const ExitStatus status = report(pushed.fault());
+    interrupt.end_if_asked();
+    return status;
+  }
+  std::printf("%s: pushed to %s%s\n", options.show.c_str(), options.rig.c_str(),
+              options.activate ? " and activated" : "");
+  return ExitStatus::done;
+}
+
+}  // namespace
+
+Command::Run declare_push(CLI::App& app) {
+  const auto options = std::make_shared<Options>();
+  app.add_option("SHOW", options->show, "the show (.h5)")->required();
+  add_rig_option(app, options->rig);
+  app.add_flag("--activate", options->activate, "make it the rig's show at the next sweep");
+  return [options] { return run(*options); };
+}
+
+}  // namespace focalstage

@@ -1,0 +1,111 @@
+#include "editor/cli/output.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string_view>
+
+#include "io/json/json.h"
+
+namespace focalstage {
+namespace {
+
+const char* word(Severity severity) {
+  switch (severity) {
+    case Severity::error:
+      return "error";
+    case Severity::warning:
+      return "warning";
+    case Severity::info:
+      return "info";
+  }
+  return "";
+}
+
+std::string amount_text(const Amount& amount) {
+  const std::string unit = amount.unit.empty() ? "" : " " + amount.unit;
+  return short_number(amount.value) + unit + ", limit " + short_number(amount.limit) + unit;
+}
+
+}  // namespace
+
+ExitStatus status_of(const Fault& fault) {
+  static constexpr std::array<std::string_view, 6> environment{
+      "rig.", "file.unwritable", "show.disk-full", "show.unwritable", "program.", "display."};
+  const bool outside = std::any_of(environment.begin(), environment.end(),
+                                   [&](std::string_view code) { return fault.code.starts_with(code); });
+  return outside ? ExitStatus::environment : ExitStatus::invalid;
+}
+
+ExitStatus report(const Fault& fault) {
+  std::string line = describe(fault);
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  std::fprintf(stderr, "focalstage: %s\n", line.c_str());
+  return status_of(fault);
+}
+
+void print_json(const Value& object) { std::printf("%s\n", write_json(object, -1).c_str()); }
+
+Value findings_value(const std::vector<Finding>& findings) {
+  Value::Array array;
+  for (const Finding& finding : findings) array.push_back(value_from(finding));
+  Value object;
+  object.set("findings", std::move(array));
+  return object;
+}
+
+std::string findings_text(const std::vector<Finding>& findings) {
+  if (findings.empty()) return "no findings\n";
+  std::string text;
+  for (const Finding& finding : findings) {
+    text += std::string(word(finding.severity)) + ": " + finding.message + "\n";
+    text += "  " + finding.code + " at " + (finding.where.empty() ? "/" : finding.where);
+    if (finding.amount) text += " (" + amount_text(*finding.amount) + ")";
+    text += "\n";
+    for (const Edit& edit : finding.remedy) text += "  remedy: " + write_json(value_from(edit), -1) + "\n";
+  }
+  return text;
+}
+
+ExitStatus status_of(const std::vector<Finding>& findings) {
+  return has_error(findings) ? ExitStatus::findings : ExitStatus::done;
+}
+
+std::string table_text(const std::vector<Column>& columns, const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    std::size_t width = columns[c].title.size();
+    for (const auto& row : rows) width = std::max(width, row[c].size());
+    widths.push_back(width);
+  }
+  const auto line = [&](const auto& cell) {
+    std::string text;
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const std::string& content = cell(c);
+      const std::string pad(widths[c] - content.size(), ' ');
+      text += (c == 0 ? "" : "  ") + (columns[c].right ? pad + content : content + pad);
+    }
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    return text + "\n";
+  };
+  std::string text = line([&](std::size_t c) -> const std::string& { return columns[c].title; });
+  for (const auto& row : rows) text += line([&](std::size_t c) -> const std::string& { return row[c]; });
+  return text;
+}
+
+std::string number_text(double value, int decimals) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  const std::string_view digits(text);
+  const bool zero = digits.find_first_not_of("-0.") == std::string_view::npos;
+  return zero && text[0] == '-' ? std::string(text + 1) : std::string(text);
+}
+
+std::string short_number(double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.6g", value == 0.0 ? 0.0 : value);
+  return text;
+}
+
+}  // namespace focalstage

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/scene/finding.h"
+#include "core/scene/project.h"
+#include "io/assets/assets.h"
+#include "io/show/reader.h"
+
+namespace focalstage {
+
+/// A project with everything it refers to, from its folder or out of a show.
+struct Source {
+  Project project;
+  std::string text;  ///< the bytes of the project file
+  LoadedAssets loaded;
+  std::vector<Finding> notes;  ///< what reading it noticed: unknown keys, an older version
+};
+
+/// `NAME.focal` or the folder that holds it.
+Result<Source> open_project(const std::filesystem::path& project);
+
+/// The project inside a show; nothing beside the show is read. `name` is the show's, for faults.
+Result<Source> project_in(const ShowReader& show, const std::string& name);
+
+/// Whether the file says it is a show (HDF5), by its first bytes or its name.
+bool is_show(const std::filesystem::path& path);
+
+}  // namespace focalstage

@@ -1,0 +1,3 @@
+#include "editor/cli/command.h"
+
+int main(int argc, char** argv) { return focalstage::run_focalstage(argc, argv); }

@@ -1,0 +1,228 @@
+#include "io/protocol/convert.h"
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace focalstage {
+
+namespace {
+
+v1::LensResponse message_from(const LensResponse& response) {
+  v1::LensResponse message;
+  for (const LensHarmonic& point : response) {
+    v1::LensHarmonic* harmonic = message.add_harmonics();
+    harmonic->set_harmonic(point.harmonic);
+    harmonic->set_gain_d_per_a(point.gain_d_per_a);
+    harmonic->set_phase_deg(point.phase_deg);
+  }
+  return message;
+}
+
+LensResponse response_from(const v1::LensResponse& message) {
+  LensResponse response;
+  for (const v1::LensHarmonic& point : message.harmonics()) {
+    LensHarmonic harmonic;
+    harmonic.harmonic = point.harmonic();
+    harmonic.gain_d_per_a = point.gain_d_per_a();
+    harmonic.phase_deg = point.phase_deg();
+    response.push_back(harmonic);
+  }
+  return response;
+}
+
+v1::Glasses message_from(const Glasses& glasses) {
+  v1::Glasses message;
+  message.set_lens_to_pupil_mm(glasses.lens_to_pupil_mm);
+  message.set_lens_min_d(glasses.lens_range_d[0]);
+  message.set_lens_max_d(glasses.lens_range_d[1]);
+  message.set_lens_aperture_mm(glasses.lens_aperture_mm);
+  message.set_shutter_close_ms(glasses.shutter_close_ms);
+  message.set_shutter_open_ms(glasses.shutter_open_ms);
+  *message.mutable_left() = message_from(glasses.lens_response.left);
+  *message.mutable_right() = message_from(glasses.lens_response.right);
+  return message;
+}
+
+Glasses glasses_from(const v1::Glasses& message) {
+  Glasses glasses;
+  glasses.lens_to_pupil_mm = message.lens_to_pupil_mm();
+  glasses.lens_range_d = {message.lens_min_d(), message.lens_max_d()};
+  glasses.lens_aperture_mm = message.lens_aperture_mm();
+  glasses.shutter_close_ms = message.shutter_close_ms();
+  glasses.shutter_open_ms = message.shutter_open_ms();
+  glasses.lens_response.left = response_from(message.left());
+  glasses.lens_response.right = response_from(message.right());
+  return glasses;
+}
+
+v1::Projector message_from(const Projector& projector) {
+  v1::Projector message;
+  message.set_name(projector.name);
+  message.set_model(projector.model);
+  message.set_width_px(projector.width_px);
+  message.set_height_px(projector.height_px);
+  message.set_frames_per_second(projector.frames_per_second);
+  message.set_bits(projector.bits);
+  message.set_color(projector.color == ColorMode::rgb ? v1::COLOR_RGB : v1::COLOR_GRAY);
+  message.set_latency_ms(projector.latency_ms);
+  return message;
+}
+
+Projector projector_from(const v1::Projector& message) {
+  Projector projector;
+  projector.name = message.name();
+  projector.model = message.model();
+  projector.width_px = message.width_px();
+  projector.height_px = message.height_px();
+  projector.frames_per_second = message.frames_per_second();
+  projector.bits = message.bits();
+  projector.color = message.color() == v1::COLOR_RGB ? ColorMode::rgb : ColorMode::gray;
+  projector.latency_ms = message.latency_ms();
+  return projector;
+}
+
+v1::SlotReport message_from(const SlotReport& slot) {
+  v1::SlotReport message;
+  message.set_slot(slot.slot);
+  message.set_image(slot.image);
+  message.set_eye(slot.eye);
+  message.set_asked_power_d(slot.asked_power_d);
+  message.set_delivered_power_d(slot.delivered_power_d);
+  message.set_asked_s(slot.asked_s);
+  message.set_delivered_s(slot.delivered_s);
+  message.set_right_image(slot.right_image);
+  message.set_own_shutter_open(slot.own_shutter_open);
+  message.set_other_shutter_closed(slot.other_shutter_closed);
+  message.set_delivered(slot.delivered);
+  message.set_exposures(slot.exposures);
+  message.set_missed(slot.missed);
+  return message;
+}
+
+SlotReport slot_from(const v1::SlotReport& message) {
+  SlotReport slot;
+  slot.slot = message.slot();
+  slot.image = message.image();
+  slot.eye = message.eye();
+  slot.asked_power_d = message.asked_power_d();
+  slot.delivered_power_d = message.delivered_power_d();
+  slot.asked_s = message.asked_s();
+  slot.delivered_s = message.delivered_s();
+  slot.right_image = message.right_image();
+  slot.own_shutter_open = message.own_shutter_open();
+  slot.other_shutter_closed = message.other_shutter_closed();
+  slot.delivered = message.delivered();
+  slot.exposures = message.exposures();
+  slot.missed = message.missed();
+  return slot;
+}
+
+/// Which status of gRPC a code of ours travels as; tools that know nothing of us then still understand it.
+grpc::StatusCode status_code(std::string_view code) {
+  static constexpr std::array<std::pair<std::string_view, grpc::StatusCode>, 6> known{{
+      {"rig.held", grpc::StatusCode::ABORTED},
+      {"rig.lease", grpc::StatusCode::UNAUTHENTICATED},
+      {"rig.damaged", grpc::StatusCode::DATA_LOSS},
+      {"rig.disk-full", grpc::StatusCode::RESOURCE_EXHAUSTED},
+      {"rig.request", grpc::StatusCode::INVALID_ARGUMENT},
+      {"rig.cancelled", grpc::StatusCode::CANCELLED},
+  }};
+  for (const auto& [name, status] : known) {
+    if (name == code) return status;
+  }
+  return grpc::StatusCode::FAILED_PRECONDITION;
+}
+
+}  // namespace
+
+v1::RigDescription message_from(const RigDescription& rig) {
+  v1::RigDescription message;
+  message.set_name(rig.name);
+  message.set_kind(rig.kind);
+  for (const Projector& projector : rig.projectors) *message.add_projectors() = message_from(projector);
+  *message.mutable_glasses() = message_from(rig.glasses);
+  message.set_frequency_hz(rig.frequency_hz);
+  message.set_lens_current_max_a(rig.lens_current_max_a);
+  message.set_shutter_changes_per_s_max(rig.shutter_changes_per_s_max);
+  return message;
+}
+
+RigDescription description_from(const v1::RigDescription& message) {
+  RigDescription rig;
+  rig.name = message.name();
+  rig.kind = message.kind();
+  for (const v1::Projector& projector : message.projectors()) rig.projectors.push_back(projector_from(projector));
+  rig.glasses = glasses_from(message.glasses());
+  rig.frequency_hz = message.frequency_hz();
+  rig.lens_current_max_a = message.lens_current_max_a();
+  rig.shutter_changes_per_s_max = message.shutter_changes_per_s_max();
+  return rig;
+}
+
+v1::RigState message_from(const RigState& state) {
+  v1::RigState message;
+  message.set_state(state.state);
+  message.set_show_sha256(state.show_sha256);
+  message.set_sweeps(state.sweeps);
+  message.set_missed_exposures(state.missed_exposures);
+  message.set_lens_phase(state.lens_phase);
+  message.set_temperature_c(state.temperature_c);
+  message.set_fault(state.fault);
+  for (const SlotReport& slot : state.slots) *message.add_slots() = message_from(slot);
+  message.set_holder(state.holder);
+  message.set_frame(state.frame);
+  message.set_late_sweeps(state.late_sweeps);
+  for (const LatenessBin& bin : state.lateness) {
+    v1::LatenessBin* out = message.add_lateness();
+    out->set_up_to_us(bin.up_to_us);
+    out->set_sweeps(bin.sweeps);
+  }
+  return message;
+}
+
+RigState state_from(const v1::RigState& message) {
+  RigState state;
+  state.state = message.state();
+  state.show_sha256 = message.show_sha256();
+  state.sweeps = message.sweeps();
+  state.missed_exposures = message.missed_exposures();
+  state.lens_phase = message.lens_phase();
+  state.temperature_c = message.temperature_c();
+  state.fault = message.fault();
+  for (const v1::SlotReport& slot : message.slots()) state.slots.push_back(slot_from(slot));
+  state.holder = message.holder();
+  state.frame = message.frame();
+  state.late_sweeps = message.late_sweeps();
+  for (const v1::LatenessBin& bin : message.lateness()) state.lateness.push_back({bin.up_to_us(), bin.sweeps()});
+  return state;
+}
+
+grpc::Status status_from(const Fault& fault) {
+  v1::Fault details;
+  details.set_code(fault.code);
+  details.set_where(fault.where);
+  details.set_message(fault.message);
+  details.set_remedy(fault.remedy);
+  return {status_code(fault.code), describe(fault), details.SerializeAsString()};
+}
+
+Fault fault_from(const grpc::Status& status, const std::string& address) {
+  v1::Fault details;
+  if (!status.error_details().empty() && details.ParseFromString(status.error_details()) && !details.code().empty()) {
+    return {details.code(), details.where(), details.message(), details.remedy()};
+  }
+  switch (status.error_code()) {
+    case grpc::StatusCode::UNAVAILABLE:
+      return {"rig.unreachable", address, "no rig answers there",
+              "start focalstage-runtime, or name its HOST:PORT with --to"};
+    case grpc::StatusCode::DEADLINE_EXCEEDED:
+      return {"rig.unreachable", address, "the rig did not answer in time", "look at the rig's log"};
+    case grpc::StatusCode::CANCELLED:
+      return {"rig.cancelled", address, "the call was cancelled", ""};
+    default:
+      return {"rig.refused", address, status.error_message(), "look at the rig's log"};
+  }
+}
+
+}  // namespace focalstage

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <grpcpp/support/status.h>
+
+#include "core/base/result.h"
+#include "focalstage/v1/rig.pb.h"
+#include "io/protocol/rig_values.h"
+
+namespace focalstage {
+
+v1::RigDescription message_from(const RigDescription& rig);
+RigDescription description_from(const v1::RigDescription& message);
+
+v1::RigState message_from(const RigState& state);
+RigState state_from(const v1::RigState& message);
+
+/// The fault as a status of the call, and back. A status that carries no fault of ours (the connection broke, the
+/// deadline passed) becomes "rig.unreachable".
+grpc::Status status_from(const Fault& fault);
+Fault fault_from(const grpc::Status& status, const std::string& address);
+
+}  // namespace focalstage

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/scene/project.h"
+
+namespace focalstage {
+
+/// What a rig says of itself: enough to compile for it.
+struct RigDescription {
+  std::string name;
+  std::string kind;  ///< "sim" or the hardware's
+  std::vector<Projector> projectors;
+  Glasses glasses;                  ///< measured lens response per eye, shutter times, limits
+  double frequency_hz = 60.0;       ///< of the sweep whose harmonics the lens response lists
+  double lens_current_max_a = 0.0;  ///< limits of the rig's own configuration
+  double shutter_changes_per_s_max = 0.0;
+
+  bool operator==(const RigDescription&) const = default;
+};
+
+/// Asked beside delivered for one exposure, worst over the sweeps watched.
+struct SlotReport {
+  int slot = 0;
+  int image = 0;
+  int eye = 0;
+  double asked_power_d = 0.0;
+  double delivered_power_d = 0.0;
+  double asked_s = 0.0;
+  double delivered_s = 0.0;
+  bool right_image = false;
+  bool own_shutter_open = false;
+  bool other_shutter_closed = false;
+  bool delivered = false;  ///< all of it within 0.02 D and 20 us
+  std::uint64_t exposures = 0;
+  std::uint64_t missed = 0;
+
+  bool operator==(const SlotReport&) const = default;
+};
+
+/// How many sweeps were handed over at most so much later than planned, and later than the bin before.
+struct LatenessBin {
+  double up_to_us = 0.0;  ///< infinite in the last
+  std::uint64_t sweeps = 0;
+
+  bool operator==(const LatenessBin&) const = default;
+};
+
+struct RigState {
+  std::string state;  ///< "empty", "ready", "playing", "holding", "dark"
+  std::string show_sha256;
+  std::uint64_t sweeps = 0;
+  std::uint64_t missed_exposures = 0;
+  double lens_phase = 0.0;
+  double temperature_c = 0.0;
+  std::string fault;  ///< latched; empty when none
+  std::vector<SlotReport> slots;
+  std::string holder;  ///< who holds the rig; empty when nobody
+  int frame = 0;       ///< of the show
+  std::uint64_t late_sweeps = 0;
+  std::vector<LatenessBin> lateness;
+
+  bool operator==(const RigState&) const = default;
+};
+
+}  // namespace focalstage

@@ -1,0 +1,128 @@
+#include "io/show/writer.h"
+
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <mutex>
+#include <new>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "io/show/assemble.h"
+#include "io/show/chunks.h"
+#include "io/show/disk.h"
+#include "io/show/fingerprint.h"
+#include "io/show/part.h"
+
+namespace focalstage {
+
+struct ShowWriter::State {
+  std::filesystem::path path;
+  ShowHeader header;
+  ChunkGrid grid;
+  PartLog log;
+  tbb::task_arena arena;
+  mutable std::mutex mutex;  ///< of the log
+
+  std::filesystem::path temporary() const { return path.string() + ".tmp"; }
+};
+
+namespace {
+
+PartKey part_key(const ShowHeader& header, const ChunkGrid& grid) {
+  return {sha256_of(header.project_text),          fingerprint_of(header), static_cast<std::size_t>(header.frames),
+          header.images.size() * grid.per_image(), grid.bytes(),           header.poses[0].objects.size()};
+}
+
+Status check_asset_hashes(const ShowHeader& header, const std::string& where) {
+  for (const AssetFile& asset : header.assets) {
+    if (hex(sha256_of(asset.bytes)) != asset.sha256)
+      return Fault{"show.invalid", where + ": /asset/" + asset.sha256, "its bytes have another hash: " + asset.path,
+                   ""};
+  }
+  return {};
+}
+
+bool fits(const FrameImages& images, const ShowHeader& header) {
+  return images.count == header.images.size() && images.width_px == header.width_px &&
+         images.height_px == header.height_px && images.channels == header.channels &&
+         images.codes.size() == images.count * images.bytes_per_image();
+}
+
+}  // namespace
+
+ShowWriter::ShowWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}
+ShowWriter::ShowWriter(ShowWriter&&) noexcept = default;
+ShowWriter& ShowWriter::operator=(ShowWriter&&) noexcept = default;
+ShowWriter::~ShowWriter() = default;
+
+Result<ShowWriter> ShowWriter::start(const std::filesystem::path& path, const ShowHeader& header, bool resume,
+                                     int threads) {
+  const std::string where = path.string();
+  if (Status valid = check_header(header, where); !valid) return valid.fault();
+  if (Status right = check_asset_hashes(header, where); !right) return right.fault();
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) return write_fault(path, EISDIR);
+
+  const ChunkGrid grid = chunk_grid(header.width_px, header.height_px, header.channels);
+  Result<PartLog> log = PartLog::open(where + ".part", part_key(header, grid), resume);
+  if (!log) return log.fault();
+  const int all = tbb::info::default_concurrency();
+  const int concurrency = threads > 0 ? std::min(threads, all) : all;
+  auto state = std::unique_ptr<State>(new State{path, header, grid, std::move(*log), tbb::task_arena(concurrency), {}});
+  std::filesystem::remove(state->temporary(), error);
+  return ShowWriter(std::move(state));
+}
+
+bool ShowWriter::has_frame(int frame) const {
+  const std::scoped_lock lock(state_->mutex);
+  return frame >= 0 && frame < state_->header.frames && state_->log.has(static_cast<std::size_t>(frame));
+}
+
+const std::vector<FrameMeasure>& ShowWriter::measures() const { return state_->log.measures(); }
+
+Status ShowWriter::add_frame(int frame, const FrameImages& images, const FrameMeasure& measure) {
+  const auto refused = [&](const std::string& why) {
+    return Fault{"show.frame", state_->path.string(), "frame " + std::to_string(frame) + " " + why, ""};
+  };
+  if (frame < 0 || frame >= state_->header.frames) return refused("is beyond the show's end");
+  if (!fits(images, state_->header)) return refused("has not the images that the header announces");
+  if (has_frame(frame)) return refused("is already there");
+  try {
+    PackedFrame packed;
+    state_->arena.execute([&] { packed = pack(images, state_->grid); });
+    const std::scoped_lock lock(state_->mutex);
+    if (state_->log.has(static_cast<std::size_t>(frame))) return refused("is already there");
+    return state_->log.append(static_cast<std::size_t>(frame), measure, packed);
+  } catch (const std::bad_alloc&) {
+    return refused("does not fit into memory");
+  }
+}
+
+Status ShowWriter::finish(std::stop_token stop) {
+  const std::scoped_lock lock(state_->mutex);
+  for (int frame = 0; frame < state_->header.frames; ++frame) {
+    if (!state_->log.has(static_cast<std::size_t>(frame))) {
+      return Fault{"show.missing-frame", state_->path.string(),
+                   "frame " + std::to_string(frame) + " was never compiled", "compile again with --resume"};
+    }
+  }
+  if (Status synced = state_->log.sync(); !synced) return synced;
+  const std::filesystem::path temporary = state_->temporary();
+  std::error_code ignored;
+  Status written = assemble(temporary, state_->header, state_->log, stop);
+  if (written && ::rename(temporary.c_str(), state_->path.c_str()) != 0) written = write_fault(state_->path, errno);
+  if (!written) {
+    std::filesystem::remove(temporary, ignored);
+    return written;
+  }
+  if (!sync_directory(folder_of(state_->path))) return write_fault(state_->path, errno);
+  state_->log.remove();
+  return {};
+}
+
+}  // namespace focalstage

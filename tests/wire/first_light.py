@@ -1,0 +1,92 @@
+#!/usr/bin/python3
+"""From a sample to light on the simulated rig, through the command line alone."""
+
+import csv
+import pathlib
+import time
+
+from harness import DONE, FOCALSTAGE, USAGE, expect, focalstage, folder, main, rig, small_project, succeed, write_project
+
+
+def test_new_to_report():
+    with folder() as at:
+        succeed("new", at / "room", "--from", "three-rabbits")
+        assert (at / "room/room.focal").exists()
+        checked = focalstage("check", at / "room", "--json")
+        assert checked.status == DONE, checked
+        show = at / "room.h5"
+        compiled = succeed("compile", at / "room", "-o", show, "--json").json()
+        assert compiled["findings"] == checked.json()["findings"], "check and compile disagree"
+        assert compiled["frames"] == 1 and compiled["images"] == 6 and compiled["slots"] == 6, compiled
+        assert not (at / "room.h5.part").exists(), "the part is left behind"
+        assert focalstage("check", show, "--json").json() == checked.json(), "the show and its project disagree"
+
+        succeed("export", show, "-o", at / "export")
+        names = sorted(p.name for p in (at / "export").iterdir())
+        assert sum(n.endswith(".png") for n in names) == 6, names
+        for name in ("schedule.csv", "timing.vcd", "waveform.csv"):
+            assert name in names, names
+        with open(at / "export/schedule.csv") as file:
+            assert len(list(csv.DictReader(file))) == 6
+
+        with rig(at) as address:
+            succeed("push", show, "--to", address, "--activate")
+            succeed("rig", "play", "--to", address)
+            time.sleep(1.0)
+            state = succeed("rig", "state", "--to", address, "--json").json()
+            assert state["state"] == "playing", state
+            assert len(state["slots"]) == 6, state
+            for slot in state["slots"]:
+                assert abs(slot["asked_power_d"] - slot["delivered_power_d"]) <= 0.02, slot
+                assert abs(slot["asked_s"] - slot["delivered_s"]) <= 20e-6, slot
+                assert slot["right_image"] and slot["own_shutter_open"] and slot["other_shutter_closed"], slot
+                assert slot["delivered"], slot
+            assert succeed("rig", "hold", "--to", address, "--json").json()["state"] == "holding"
+            assert succeed("rig", "blackout", "--to", address, "--json").json()["state"] == "dark"
+            text = succeed("rig", "state", "--to", address).out
+            assert text.startswith("dark"), text
+
+
+def test_every_sample_is_taken_by_the_rig():
+    """No sample is refused with rig.differs, and what plays is all delivered."""
+    with folder() as at, rig(at) as address:
+        names = sorted(p.name for p in (pathlib.Path(__file__).parents[2] / "projects").iterdir() if p.is_dir())
+        assert len(names) == 7, names
+        for name in names:
+            succeed("new", at / name, "--from", name)
+            succeed("compile", at / name, "-o", at / f"{name}.h5", "--frames", "0:1")
+            succeed("push", at / f"{name}.h5", "--to", address, "--activate")
+            succeed("rig", "play", "--to", address)
+            time.sleep(0.5)
+            state = succeed("rig", "state", "--to", address, "--json").json()
+            late = [s for s in state["slots"] if not s["delivered"]]
+            assert state["slots"] and not late, f"{name}: {late or state}"
+        return f"{len(names)} samples"
+
+
+def test_adopted_rig_is_taken():
+    with folder() as at, rig(at) as address:
+        write_project(at / "small", small_project(frames=2))
+        succeed("compile", at / "small", "-o", at / "before.h5")
+        refused = focalstage("push", at / "before.h5", "--to", address, "--activate")
+        assert refused.status == 4 and "rig.differs" in refused.err, refused
+        succeed("adopt-rig", at / "small", "--to", address)
+        succeed("compile", at / "small", "-o", at / "after.h5")
+        succeed("push", at / "after.h5", "--to", address, "--activate")
+        again = succeed("adopt-rig", at / "small", "--to", address, "--dry-run")
+        assert again.out == "", f"adopting twice changes something: {again}"
+
+
+def test_help_of_every_command():
+    text = succeed("--help").out
+    commands = [line.split()[0] for line in text.split("Commands:\n")[1].split("\n\n")[0].splitlines()]
+    assert len(commands) == 12, commands
+    for name in commands:
+        if name not in ("runtime", "edit", "bench"):
+            assert "Usage: focalstage " + name in succeed(name, "--help").out
+    expect(focalstage(), USAGE, "Commands:", line=False)
+    assert pathlib.Path(FOCALSTAGE).exists()
+
+
+if __name__ == "__main__":
+    main([test_new_to_report, test_every_sample_is_taken_by_the_rig, test_adopted_rig_is_taken, test_help_of_every_command])
