@@ -180,6 +180,8 @@ FrameMeasure gather(const Stage& stage, const std::vector<RowTally>& tallies) {
       object.samples += row.objects[i].samples;
       object.beyond += row.objects[i].beyond;
       object.worst_beyond_d = std::max(object.worst_beyond_d, row.objects[i].worst_beyond_d);
+      object.worst_below_d = std::max(object.worst_below_d, row.objects[i].worst_below_d);
+      object.worst_above_d = std::max(object.worst_above_d, row.objects[i].worst_above_d);
     }
   }
   return measure;
