@@ -1,3 +1,5 @@
+cmake_minimum_required(VERSION 3.25)
+
 # Writes OUTPUT: the FILES below ROOT, a folder per sample, as the table that editor/cli/samples.h promises.
 list(SORT FILES)
 set(names)

@@ -19,6 +19,8 @@ struct ObjectTally {
   std::uint64_t samples = 0;
   std::uint64_t beyond = 0;
   double worst_beyond_d = 0.0;
+  double worst_below_d = 0.0;
+  double worst_above_d = 0.0;
 };
 
 /// What the slices of a frame share.

@@ -30,6 +30,8 @@ void count(const SliceSample& sample, FrameMeasure& measure) {
   ++object.samples;
   if (sample.beyond_d > beyond_limit_d) ++object.beyond;
   object.worst_beyond_d = std::max(object.worst_beyond_d, sample.beyond_d);
+  double& own_side_d = sample.below ? object.worst_below_d : object.worst_above_d;
+  own_side_d = std::max(own_side_d, sample.beyond_d);
 }
 
 /// Adds what a lit point shows to the light of every image.
@@ -106,6 +108,8 @@ void add(const FrameMeasure& row, FrameMeasure& sum) {
     sum.objects[i].samples += row.objects[i].samples;
     sum.objects[i].beyond += row.objects[i].beyond;
     sum.objects[i].worst_beyond_d = std::max(sum.objects[i].worst_beyond_d, row.objects[i].worst_beyond_d);
+    sum.objects[i].worst_below_d = std::max(sum.objects[i].worst_below_d, row.objects[i].worst_below_d);
+    sum.objects[i].worst_above_d = std::max(sum.objects[i].worst_above_d, row.objects[i].worst_above_d);
   }
 }
 

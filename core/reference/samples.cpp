@@ -97,6 +97,7 @@ std::optional<SliceSample> Samples::slice(Side side, const EyePoint& eye, std::s
     const double wanted_d = 1.0 / plane_m - wanted_vergence_d(object.depth, met->depth_m - lens_to_pupil_m);
     sample.weight = rule_.weight(n, wanted_d);
     sample.beyond_d = rule_.beyond_d(wanted_d);
+    sample.below = rule_.is_below(wanted_d);
   }
   const glm::dvec3 pupil_m = eyes_[side].eye_from_world.inverse().position_m;
   sample.colour = colour_at(object.drawables[face.drawable], face.triangle, met->shares, pupil_m, stage_->lights);

@@ -14,14 +14,15 @@ Fault no_such_key(const std::string& key, const std::string& step) {
   return {"edit.key", key, "there is no \"" + step + "\" here", "name a key of the item; steps are parted by slashes"};
 }
 
-/// The member or item of `here` named `step`, made as an object where an object lacks it; null where it cannot be.
-Value* enter(Value& here, const std::string& step) {
+/// The member or item of `here` named `step`; null where it cannot be. What an object lacks is made: a list where
+/// `next` is the first of one, else an object.
+Value* enter(Value& here, const std::string& step, const std::string& next) {
   if (Value::Array* items = here.array()) {
     const auto index = index_in(step);
     return index && *index < items->size() ? &(*items)[*index] : nullptr;
   }
   if (!here.object()) return nullptr;
-  if (!here.find(step)) here.set(step, Value(Value::Object{}));
+  if (!here.find(step)) here.set(step, next == "0" ? Value(Value::Array{}) : Value(Value::Object{}));
   return here.find(step);
 }
 
@@ -85,7 +86,7 @@ Status set_value(Value& item, const std::string& key, const Value& value) {
   }
   Value* here = &item;
   for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
-    here = enter(*here, steps[i]);
+    here = enter(*here, steps[i], steps[i + 1]);
     if (!here) return no_such_key(key, steps[i]);
   }
   if (!put(*here, steps.back(), value)) return no_such_key(key, steps.back());

@@ -23,7 +23,7 @@ ExitStatus run(const Options& options) {
   if (!loaded) return report(loaded.fault());
   auto rig = connect_to_rig(options.rig);
   if (!rig) return report(rig.fault());
-  const auto description = rig->describe();
+  const auto description = rig->describe(loaded->project.sweep.frequency_hz);
   if (!description) return report(description.fault());
   const std::vector<Edit> edits = adopt(loaded->project, *description);
   for (const Edit& edit : edits) std::printf("%s\n", write_json(value_from(edit), -1).c_str());

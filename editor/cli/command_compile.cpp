@@ -55,7 +55,8 @@ void print_report(const Options& options, const CompileReport& report) {
 Result<CompileReport> compile_with_progress(const Options& options, const Source& source, const CompileJob& job,
                                             std::stop_token stop) {
   Progress bar("Compiling " + source.project.name, options.json ? Progress::Style::quiet : Progress::Style::automatic);
-  return compile_show(source, job, [&](int done, int of) { bar.update(done, of, "frame"); }, stop);
+  return compile_show(
+      source, job, [&](int done, int of) { bar.update(done, of, "frame"); }, stop);
 }
 
 ExitStatus run(const Options& options) {

@@ -1,8 +1,8 @@
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <memory>
 #include <system_error>
-#include <unistd.h>
 #include <vector>
 
 #include "editor/cli/command_list.h"

@@ -23,8 +23,8 @@ ExitStatus run(const Options& options) {
   Status pushed;
   {
     Progress bar("Pushing to " + options.rig, Progress::Style::automatic);
-    pushed = rig->push(options.show, options.activate, [&](double share) { bar.update(share, 1.0, ""); },
-                       interrupt.token());
+    pushed = rig->push(
+        options.show, options.activate, [&](double share) { bar.update(share, 1.0, ""); }, interrupt.token());
   }
   if (!pushed) {
     const ExitStatus status = report(pushed.fault());

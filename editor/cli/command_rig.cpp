@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <memory>
 
 #include "editor/cli/command_list.h"
@@ -12,16 +13,30 @@ struct Options {
   std::string action;
   std::string cue;
   std::string rig;
+  std::uint64_t sweeps = 0;
+  double seconds = 0.0;
   bool json = false;
 };
 
+/// A line a second until told to stop.
+Status watch(RigClient& rig, double seconds) {
+  using Clock = std::chrono::steady_clock;
+  const auto started = Clock::now();
+  return rig.watch(std::chrono::seconds(1), [&](const RigState& state) {
+    std::printf("%s", state_line(state).c_str());
+    std::fflush(stdout);
+    return seconds <= 0.0 || std::chrono::duration<double>(Clock::now() - started).count() < seconds;
+  });
+}
+
 /// Does what was asked; "state" is only the look at it that follows every action.
 Status act(RigClient& rig, const Options& options) {
-  if (options.action == "play") return rig.play();
+  if (options.action == "play") return rig.play(options.sweeps);
   if (options.action == "hold") return rig.hold();
   if (options.action == "blackout") return rig.blackout();
   if (options.action == "go") return rig.go();
   if (options.action == "cue") return rig.cue(options.cue);
+  if (options.action == "watch") return watch(rig, options.seconds);
   return {};
 }
 
@@ -48,11 +63,14 @@ ExitStatus run(const Options& options) {
 
 Command::Run declare_rig(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  app.add_option("ACTION", options->action, "state, play, hold, blackout, go (lifts a blackout or fault), cue")
+  app.add_option("ACTION", options->action, "state, play, hold, blackout, go (lifts a blackout or fault), cue, watch")
       ->required()
-      ->check(CLI::IsMember({"state", "play", "hold", "blackout", "go", "cue"}));
+      ->type_name("")
+      ->check(CLI::IsMember({"state", "play", "hold", "blackout", "go", "cue", "watch"}).name(""));
   app.add_option("NAME", options->cue, "the cue to jump to");
   add_rig_option(app, options->rig);
+  app.add_option("--sweeps", options->sweeps, "play: this many, then hold; on and on by default");
+  app.add_option("--seconds", options->seconds, "watch: this long; until Ctrl-C by default");
   app.add_flag("--json", options->json, "print the state as one JSON object");
   return [options] { return run(*options); };
 }

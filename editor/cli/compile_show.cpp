@@ -47,7 +47,8 @@ class FrameSink {
       : writer_(writer), queue_(threads == 1 ? nullptr : std::make_unique<FrameQueue>(writer)) {}
 
   Status add(int frame, const FrameMaker::Made& made) {
-    return queue_ ? queue_->add(frame, made.images, made.measure) : writer_.add_frame(frame, *made.images, made.measure);
+    return queue_ ? queue_->add(frame, made.images, made.measure)
+                  : writer_.add_frame(frame, *made.images, made.measure);
   }
   Status drain() { return queue_ ? queue_->drain() : Status{}; }
 

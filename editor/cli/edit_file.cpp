@@ -74,7 +74,8 @@ Result<std::filesystem::path> apply_and_save(const LoadedProject& loaded, const 
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
   if (problem) return cannot_make(folder, problem);
-  const bool elsewhere = !std::filesystem::equivalent(folder, std::filesystem::absolute(loaded.file).parent_path(), problem);
+  const bool elsewhere =
+      !std::filesystem::equivalent(folder, std::filesystem::absolute(loaded.file).parent_path(), problem);
   if (elsewhere) {
     if (Status copied = copy_assets(*edited, loaded.file.parent_path(), folder); !copied) return copied.fault();
   }

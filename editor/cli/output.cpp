@@ -31,8 +31,8 @@ std::string amount_text(const Amount& amount) {
 }  // namespace
 
 ExitStatus status_of(const Fault& fault) {
-  static constexpr std::array<std::string_view, 6> environment{"rig.",           "file.unwritable", "show.disk-full",
-                                                               "show.unwritable", "program.",        "display."};
+  static constexpr std::array<std::string_view, 6> environment{
+      "rig.", "file.unwritable", "show.disk-full", "show.unwritable", "program.", "display."};
   const bool outside = std::any_of(environment.begin(), environment.end(),
                                    [&](std::string_view code) { return fault.code.starts_with(code); });
   return outside ? ExitStatus::environment : ExitStatus::invalid;

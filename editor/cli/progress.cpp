@@ -49,8 +49,8 @@ std::string duration_text(double seconds) {
 
 std::string bar_text(double share, int cells) {
   const int full = static_cast<int>(std::floor(std::clamp(share, 0.0, 1.0) * cells + 1e-9));
-  return "[" + std::string(static_cast<std::size_t>(full), '#') + std::string(static_cast<std::size_t>(cells - full), '-') +
-         "]";
+  return "[" + std::string(static_cast<std::size_t>(full), '#') +
+         std::string(static_cast<std::size_t>(cells - full), '-') + "]";
 }
 
 Progress::Progress(std::string title, Style style)

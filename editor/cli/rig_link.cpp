@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 
 #include "editor/cli/output.h"
 
@@ -59,10 +60,12 @@ std::vector<std::string> row_of(const SlotReport& slot) {
 
 }  // namespace
 
-Result<RigClient> connect_to_rig(const std::string& host_port) { return RigClient::connect(host_port, connect_deadline); }
+Result<RigClient> connect_to_rig(const std::string& host_port) {
+  return RigClient::connect(host_port, connect_deadline);
+}
 
 void add_rig_option(CLI::App& app, std::string& host_port) {
-  host_port = default_rig;
+  host_port = default_rig_address;
   app.add_option("--to", host_port, "the rig's address")->type_name("HOST:PORT")->capture_default_str();
 }
 
@@ -75,22 +78,40 @@ Value value_of(const RigState& state) {
   value.set("lens_phase", state.lens_phase);
   value.set("temperature_c", state.temperature_c);
   value.set("fault", state.fault);
+  value.set("holder", state.holder);
+  value.set("frame", state.frame);
+  value.set("late_sweeps", static_cast<double>(state.late_sweeps));
+  Value::Array lateness;
+  for (const LatenessBin& bin : state.lateness) {
+    Value item;
+    item.set("up_to_us", std::isfinite(bin.up_to_us) ? Value(bin.up_to_us) : Value());
+    item.set("sweeps", static_cast<double>(bin.sweeps));
+    lateness.push_back(std::move(item));
+  }
+  value.set("lateness", std::move(lateness));
   Value::Array slots;
   for (const SlotReport& slot : state.slots) slots.push_back(value_of(slot));
   value.set("slots", std::move(slots));
   return value;
 }
 
+std::string state_line(const RigState& state) {
+  std::string text = state.state + ": " + std::to_string(state.sweeps) + " sweeps, " +
+                     std::to_string(state.missed_exposures) + " exposures missed, " +
+                     std::to_string(state.late_sweeps) + " sweeps late, frame " + std::to_string(state.frame);
+  if (!state.show_sha256.empty()) text += " of show " + state.show_sha256.substr(0, 12);
+  if (!state.holder.empty()) text += ", held by " + state.holder;
+  return text + "\n";
+}
+
 std::string state_text(const RigState& state) {
-  std::string text = state.state + ", " + std::to_string(state.sweeps) + " sweeps, " +
-                     std::to_string(state.missed_exposures) + " exposures missed";
-  if (!state.show_sha256.empty()) text += ", show " + state.show_sha256.substr(0, 12);
-  text += "\n";
+  std::string text = state_line(state);
   if (!state.fault.empty()) text += "latched: " + state.fault + " (focalstage rig go clears it)\n";
   if (state.slots.empty()) return text;
   std::vector<std::vector<std::string>> rows;
   for (const SlotReport& slot : state.slots) rows.push_back(row_of(slot));
-  const auto delivered = std::count_if(state.slots.begin(), state.slots.end(), [](const auto& s) { return s.delivered; });
+  const auto delivered =
+      std::count_if(state.slots.begin(), state.slots.end(), [](const auto& s) { return s.delivered; });
   text += "\n" + table_text({{"slot", true},
                              {"eye"},
                              {"image", true},

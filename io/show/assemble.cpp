@@ -1,146 +1,22 @@
 #include "io/show/assemble.h"
 
 #include <fcntl.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "io/show/chunks.h"
-#include "io/show/digest.h"
+#include "io/files/digest.h"
 #include "io/show/hdf5_out.h"
 #include "io/show/seal.h"
+#include "io/show/write_header.h"
 
 namespace focalstage {
 namespace {
-
-constexpr std::int32_t show_version = 1;
-
-/// The numbers `get` finds in each of `items`.
-template <class T, class Items, class Get>
-std::vector<T> column(const Items& items, Get get) {
-  std::vector<T> out;
-  out.reserve(items.size());
-  for (const auto& item : items) out.push_back(static_cast<T>(get(item)));
-  return out;
-}
-
-void write_root(Hdf5Out& out, const ShowHeader& header) {
-  out.attribute("/", "format", std::string("focalstage-show"));
-  out.attribute("/", "version", show_version);
-  out.attribute("/", "frequency_hz", header.frequency_hz);
-  out.attribute("/", "frames_per_second", header.frames_per_second);
-  out.attribute("/", "rate_hz", header.rate_hz);
-  out.attribute("/", "first_frame", static_cast<std::int32_t>(header.first_frame));
-  out.attribute("/", "project_sha256", hex(sha256_of(header.project_text)));
-  out.attribute("/", "compiler", header.compiler);
-  out.dataset("/project", header.project_text);
-}
-
-/// One dataset per content; `path` is the first of its names, `paths` lists all where there is more than one.
-void write_assets(Hdf5Out& out, const ShowHeader& header) {
-  out.group("/asset");
-  std::map<std::string, std::vector<const AssetFile*>> by_content;
-  for (const AssetFile& asset : header.assets) by_content[asset.sha256].push_back(&asset);
-  for (const auto& [sha256, files] : by_content) {
-    const std::string name = "/asset/" + sha256;
-    const auto& bytes = files.front()->bytes;
-    const std::span numbers(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
-    out.dataset(name.c_str(), {bytes.size()}, numbers);
-    out.attribute(name.c_str(), "path", files.front()->path);
-    if (files.size() < 2) continue;
-    std::vector<std::string> paths;
-    for (const AssetFile* file : files) paths.push_back(file->path);
-    out.attribute(name.c_str(), "paths", paths);
-  }
-}
-
-void write_image_table(Hdf5Out& out, const ShowHeader& header) {
-  const auto& images = header.images;
-  const std::size_t count = images.size();
-  out.group("/projector/0/image");
-  out.dataset("/projector/0/image/eye", {count}, column<std::uint8_t>(images, [](auto& i) { return i.eye; }));
-  out.dataset("/projector/0/image/kind", {count}, column<std::uint8_t>(images, [](auto& i) { return i.kind; }));
-  out.dataset("/projector/0/image/power_d", {count}, column<double>(images, [](auto& i) { return i.power_d; }));
-  out.dataset("/projector/0/image/slice", {count}, column<std::int32_t>(images, [](auto& i) { return i.slice; }));
-}
-
-void write_slots(Hdf5Out& out, const ShowHeader& header) {
-  const auto& slots = header.schedule.slots;
-  const std::size_t count = slots.size();
-  out.group("/projector/0/slot");
-  out.dataset("/projector/0/slot/image", {count}, column<std::int32_t>(slots, [](auto& s) { return s.image; }));
-  out.dataset("/projector/0/slot/eye", {count}, column<std::uint8_t>(slots, [](auto& s) { return s.eye; }));
-  out.dataset("/projector/0/slot/start_s", {count}, column<double>(slots, [](auto& s) { return s.start_s; }));
-  out.dataset("/projector/0/slot/exposure_s", {count}, column<double>(slots, [](auto& s) { return s.exposure_s; }));
-  out.dataset("/projector/0/slot/trigger_s", {count}, column<double>(slots, [](auto& s) { return s.trigger_s; }));
-  out.dataset("/projector/0/slot/power_d", {count}, column<double>(slots, [](auto& s) { return s.power_d; }));
-  out.dataset("/projector/0/slot/smear_d", {count}, column<double>(slots, [](auto& s) { return s.smear_d; }));
-}
-
-std::vector<double> both_rows(const PerEye<std::vector<double>>& rows) {
-  std::vector<double> out = rows.left;
-  out.insert(out.end(), rows.right.begin(), rows.right.end());
-  return out;
-}
-
-void write_rig(Hdf5Out& out, const Schedule& schedule) {
-  const std::size_t samples = schedule.lens_power_d.left.size();
-  const auto times = [](const ShutterTimes& shutter) { return std::vector<double>{shutter.open_s, shutter.close_s}; };
-  out.group("/lens");
-  out.attribute("/lens", "period_s", schedule.period_s);
-  out.dataset("/lens/power_d", {2, samples}, both_rows(schedule.lens_power_d));
-  out.dataset("/lens/drive_a", {2, samples}, both_rows(schedule.lens_drive_a));
-  out.group("/shutter");
-  out.dataset("/shutter/left_s", {2}, times(schedule.shutter.left));
-  out.dataset("/shutter/right_s", {2}, times(schedule.shutter.right));
-}
-
-void write_poses(Hdf5Out& out, const ShowHeader& header) {
-  std::vector<double> viewer, surfaces, objects;
-  const auto append = [](std::vector<double>& to, const PoseRow& row) { to.insert(to.end(), row.begin(), row.end()); };
-  for (const FramePoses& poses : header.poses) {
-    append(viewer, poses.viewer);
-    for (const PoseRow& row : poses.surfaces) append(surfaces, row);
-    for (const PoseRow& row : poses.objects) append(objects, row);
-  }
-  const std::size_t frames = header.poses.size();
-  out.group("/pose");
-  out.dataset("/pose/viewer", {frames, 7}, viewer);
-  out.dataset("/pose/surfaces", {frames, header.poses[0].surfaces.size(), 7}, surfaces);
-  out.dataset("/pose/objects", {frames, header.poses[0].objects.size(), 7}, objects);
-}
-
-void write_cues(Hdf5Out& out, const ShowHeader& header) {
-  out.group("/cue");
-  out.dataset("/cue/name", column<std::string>(header.cues, [](auto& cue) { return cue.name; }));
-  out.dataset("/cue/frame", {header.cues.size()},
-              column<std::int32_t>(header.cues, [](auto& cue) { return cue.frame; }));
-}
-
-void write_measures(Hdf5Out& out, const std::vector<FrameMeasure>& measures) {
-  const std::size_t frames = measures.size();
-  const std::size_t objects = measures[0].objects.size();
-  std::vector<ObjectMeasure> rows;
-  for (const FrameMeasure& measure : measures) rows.insert(rows.end(), measure.objects.begin(), measure.objects.end());
-  const auto counts = [&](auto get) { return column<std::uint64_t>(measures, get); };
-  out.group("/measure");
-  out.dataset("/measure/lit_pixels", {frames}, counts([](auto& m) { return m.lit_pixels; }));
-  out.dataset("/measure/clipped_pixels", {frames}, counts([](auto& m) { return m.clipped_pixels; }));
-  out.dataset("/measure/surface_pixels", {frames}, counts([](auto& m) { return m.surface_pixels; }));
-  out.dataset("/measure/defocused_pixels", {frames}, counts([](auto& m) { return m.defocused_pixels; }));
-  out.dataset("/measure/worst_defocus_d", {frames},
-              column<double>(measures, [](auto& m) { return m.worst_defocus_d; }));
-  out.dataset("/measure/object_samples", {frames, objects},
-              column<std::uint64_t>(rows, [](auto& o) { return o.samples; }));
-  out.dataset("/measure/object_beyond", {frames, objects},
-              column<std::uint64_t>(rows, [](auto& o) { return o.beyond; }));
-  out.dataset("/measure/object_worst_beyond_d", {frames, objects},
-              column<double>(rows, [](auto& o) { return o.worst_beyond_d; }));
-}
 
 void create_images(Hdf5Out& out, const ShowHeader& header, const ChunkGrid& grid) {
   std::vector<hsize_t> shape{static_cast<hsize_t>(header.frames), header.images.size(), grid.height, grid.width};
@@ -166,14 +42,17 @@ void write_frame(Hdf5Out& out, std::size_t frame, const PackedFrame& packed, con
   }
 }
 
-/// Room for the whole file before HDF5 writes to it: its library does not survive a full disk gracefully. Where a file
-/// system cannot reserve, HDF5's own error must do.
+/// Room for the whole file before HDF5 writes to it: the library does not take a full disk well. Where a file system
+/// cannot reserve, what it says to be free must do.
 Status reserve(const std::filesystem::path& path, std::uint64_t bytes) {
   const DiskFile file = open_file(path, O_RDWR);
   if (!file.is_open()) return write_fault(path, errno);
   if (::fallocate(file.descriptor(), FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(bytes)) == 0) return {};
-  if (errno == EOPNOTSUPP || errno == ENOSYS || errno == EINVAL) return {};
-  return write_fault(path, errno);
+  if (errno != EOPNOTSUPP && errno != ENOSYS && errno != EINVAL) return write_fault(path, errno);
+  struct statvfs space {};
+  if (::fstatvfs(file.descriptor(), &space) == 0 && space.f_bavail < bytes / std::max(space.f_frsize, 1ul))
+    return write_fault(path, ENOSPC);
+  return {};
 }
 
 /// No less than what the assembled file takes: the log's bytes, an index entry per chunk, and the header's tables.
@@ -201,16 +80,7 @@ Status write_hdf5(const std::filesystem::path& path, const ShowHeader& header, c
   if (out.error()) return fault_of(*out.error(), path);
   if (Status room = reserve(path, room_for(header, log, grid)); !room) return room;
 
-  write_root(out, header);
-  write_assets(out, header);
-  out.group("/projector");
-  out.group("/projector/0");
-  write_image_table(out, header);
-  write_slots(out, header);
-  write_rig(out, header.schedule);
-  write_poses(out, header);
-  write_cues(out, header);
-  write_measures(out, log.measures());
+  write_header(out, header, log.measures());
   create_images(out, header, grid);
   for (std::size_t frame = 0; frame < log.measures().size() && !out.error(); ++frame) {
     if (stop.stop_requested())

@@ -55,11 +55,13 @@ void each_number(Measure& measure, Pass&& pass) {
     pass(object.samples);
     pass(object.beyond);
     pass(object.worst_beyond_d);
+    pass(object.worst_below_d);
+    pass(object.worst_above_d);
   }
 }
 
 std::size_t fixed_bytes(const PartKey& key) {
-  return 5 * 8 + key.objects * 3 * 8 + key.chunks_per_frame * sizeof(std::uint32_t);
+  return 5 * 8 + key.objects * 5 * 8 + key.chunks_per_frame * sizeof(std::uint32_t);
 }
 
 std::size_t largest_body(const PartKey& key) {

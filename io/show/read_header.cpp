@@ -1,11 +1,12 @@
 #include "io/show/read_header.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 
-#include "io/show/digest.h"
+#include "io/files/digest.h"
 
 namespace focalstage {
 namespace {
@@ -163,13 +164,19 @@ std::vector<FrameMeasure> read_measures(Hdf5In& in, const ShowHeader& header) {
   const auto samples = in.numbers<std::uint64_t>("/measure/object_samples", {frames, objects});
   const auto beyond = in.numbers<std::uint64_t>("/measure/object_beyond", {frames, objects});
   const auto worst_beyond_d = in.numbers<double>("/measure/object_worst_beyond_d", {frames, objects});
+  const auto worst_below_d = in.numbers<double>("/measure/object_worst_below_d", {frames, objects});
+  const auto worst_above_d = in.numbers<double>("/measure/object_worst_above_d", {frames, objects});
+  for (const auto* numbers : {&worst_defocus_d, &worst_beyond_d, &worst_below_d, &worst_above_d}) {
+    const bool finite = std::all_of(numbers->begin(), numbers->end(), [](double d) { return std::isfinite(d); });
+    if (!finite) in.refuse("/measure", "it is not finite");
+  }
   std::vector<FrameMeasure> measures;
   if (!in.ok()) return measures;
   for (std::size_t k = 0; k < frames; ++k) {
     FrameMeasure measure{lit[k], clipped[k], surface[k], defocused[k], worst_defocus_d[k], {}};
     for (std::size_t i = 0; i < objects; ++i) {
       const std::size_t at = k * objects + i;
-      measure.objects.push_back({i, samples[at], beyond[at], worst_beyond_d[at]});
+      measure.objects.push_back({i, samples[at], beyond[at], worst_beyond_d[at], worst_below_d[at], worst_above_d[at]});
     }
     measures.push_back(std::move(measure));
   }

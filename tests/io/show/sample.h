@@ -8,9 +8,10 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <tuple>
 #include <vector>
 
-#include "io/show/digest.h"
+#include "io/files/digest.h"
 #include "io/show/show.h"
 
 // A show without a compiler: small, of every kind of content, and the same on every call.
@@ -127,7 +128,17 @@ inline FrameImages images(const ShowHeader& header, int frame) {
 
 inline FrameMeasure measure(int frame) {
   const auto k = static_cast<std::uint64_t>(frame);
-  return {100 + k, 2, 300, 4 + k, 0.125 * frame, {{0, 50, 1, 0.3}, {1, 60 + k, 0, 0.01 * frame}}};
+  return {100 + k, 2, 300, 4 + k, 0.125 * frame, {{0, 50, 1, 0.3, 0.3, 0.2}, {1, 60 + k, 0, 0.01 * frame, 0, 0.01}}};
+}
+
+inline bool same(const FrameMeasure& a, const FrameMeasure& b) {
+  const auto same_object = [](const ObjectMeasure& x, const ObjectMeasure& y) {
+    return std::tie(x.samples, x.beyond, x.worst_beyond_d, x.worst_below_d, x.worst_above_d) ==
+           std::tie(y.samples, y.beyond, y.worst_beyond_d, y.worst_below_d, y.worst_above_d);
+  };
+  return std::tie(a.lit_pixels, a.clipped_pixels, a.surface_pixels, a.defocused_pixels, a.worst_defocus_d) ==
+             std::tie(b.lit_pixels, b.clipped_pixels, b.surface_pixels, b.defocused_pixels, b.worst_defocus_d) &&
+         std::equal(a.objects.begin(), a.objects.end(), b.objects.begin(), b.objects.end(), same_object);
 }
 
 }  // namespace focalstage::sample

@@ -1,8 +1,11 @@
 #include <doctest/doctest.h>
 
+#include <atomic>
+#include <cmath>
 #include <filesystem>
 #include <numeric>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "io/show/reader.h"
@@ -59,8 +62,7 @@ TEST_CASE("a show reads back as it was written") {
       REQUIRE(image.ok());
       CHECK(image->count == 1);
       CHECK(std::equal(image->codes.begin(), image->codes.end(), expected.image(1).begin(), expected.image(1).end()));
-      CHECK(show->measures()[static_cast<std::size_t>(k)].lit_pixels == sample::measure(k).lit_pixels);
-      CHECK(show->measures()[static_cast<std::size_t>(k)].objects[1].samples == sample::measure(k).objects[1].samples);
+      CHECK(sample::same(show->measures()[static_cast<std::size_t>(k)], sample::measure(k)));
     }
     CHECK_FALSE(fs::exists(folder / "a.h5.part"));
     CHECK_FALSE(fs::exists(folder / "a.h5.tmp"));
@@ -136,6 +138,83 @@ TEST_CASE("frames that do not belong are refused") {
   CHECK(writer->add_frame(0, wrong).fault().code == "show.frame");
   REQUIRE(writer->add_frame(0, good).ok());
   CHECK(writer->add_frame(0, good).fault().code == "show.frame");
+}
+
+TEST_CASE("a measure without every object is spread over the project's list") {
+  const sample::Folder folder;
+  const ShowHeader header = sample::header(1, 20, 10, 1);
+  Result<ShowWriter> writer = ShowWriter::start(folder / "a.h5", header, false, 1);
+  REQUIRE(writer.ok());
+  FrameMeasure only_second = sample::measure(0);
+  only_second.objects.erase(only_second.objects.begin());
+  REQUIRE(writer->add_frame(0, sample::images(header, 0), only_second).ok());
+  FrameMeasure expected = sample::measure(0);
+  expected.objects[0] = {};
+  CHECK(sample::same(writer->measures()[0], expected));
+  REQUIRE(writer->finish().ok());
+  CHECK(sample::same(ShowReader::open(folder / "a.h5")->measures()[0], expected));
+}
+
+TEST_CASE("frames may come from several threads at once") {
+  const sample::Folder folder;
+  const ShowHeader header = sample::header(16, 100, 70, 1);
+  const std::string bytes = written(folder / "a.h5", header, in_order(16), 1);
+  Result<ShowWriter> writer = ShowWriter::start(folder / "b.h5", header, false, 2);
+  REQUIRE(writer.ok());
+  std::atomic<int> next = 0;
+  std::atomic<int> failures = 0;
+  {
+    std::vector<std::jthread> threads;
+    for (int t = 0; t < 4; ++t) {
+      threads.emplace_back([&] {
+        for (int k = next++; k < header.frames; k = next++)
+          if (!writer->add_frame(k, sample::images(header, k), sample::measure(k))) ++failures;
+      });
+    }
+  }
+  CHECK(failures == 0);
+  REQUIRE(writer->finish().ok());
+  CHECK(sample::bytes_of(folder / "b.h5") == bytes);
+  const Result<ShowReader> show = ShowReader::open(folder / "b.h5");
+  REQUIRE(show.ok());
+  std::vector<std::jthread> readers;
+  for (int t = 0; t < 4; ++t) {
+    readers.emplace_back([&, t] {
+      for (int k = t; k < header.frames; k += 4)
+        if (show->frame(k)->codes != sample::images(header, k).codes) ++failures;
+    });
+  }
+  readers.clear();
+  CHECK(failures == 0);
+}
+
+TEST_CASE("a header that no show can hold is refused before a file is touched") {
+  const sample::Folder folder;
+  ShowHeader header = sample::header(2, 20, 10, 1);
+  std::string where;
+  SUBCASE("image") { header.schedule.slots[1].image = 5, where = "/projector/0/slot/image"; }
+  SUBCASE("eye") { header.schedule.slots[0].eye = Side::right, where = "/projector/0/slot/eye"; }
+  SUBCASE("order") {
+    std::swap(header.schedule.slots[0].start_s, header.schedule.slots[1].start_s), where = "/projector/0/slot/start_s";
+  }
+  SUBCASE("power") { header.images[0].power_d = NAN, where = "/projector/0/image/power_d"; }
+  SUBCASE("rows") { header.schedule.lens_power_d.right.pop_back(), where = "/lens/power_d"; }
+  SUBCASE("drive") { header.schedule.lens_drive_a.left.push_back(0), where = "/lens/drive_a"; }
+  SUBCASE("shutter") { header.schedule.shutter.right.close_s = INFINITY, where = "/shutter/right_s"; }
+  SUBCASE("poses") { header.poses.pop_back(), where = "/pose/viewer"; }
+  SUBCASE("objects") { header.poses[1].objects.pop_back(), where = "/pose/objects"; }
+  SUBCASE("cue") { header.cues[0].frame = 2, where = "/cue/frame"; }
+  SUBCASE("rate") { header.rate_hz = 0, where = "/ attribute rate_hz"; }
+  SUBCASE("size") { header.width_px = 0, where = "/projector/0/images"; }
+  SUBCASE("channels") { header.channels = 2, where = "/projector/0/images"; }
+  SUBCASE("asset order") { std::swap(header.assets[0], header.assets[1]), where = "/asset/" + header.assets[1].sha256; }
+  SUBCASE("asset bytes") { header.assets[0].bytes.pop_back(), where = "/asset/" + header.assets[0].sha256; }
+  SUBCASE("text") { header.project_text += '\0', where = "/project"; }
+  const auto writer = ShowWriter::start(folder / "a.h5", header, false, 1);
+  REQUIRE_FALSE(writer.ok());
+  CHECK(writer.fault().code == "show.invalid");
+  CHECK(writer.fault().where == (folder / "a.h5").string() + ": " + where);
+  CHECK(fs::is_empty(folder.path()));
 }
 
 }  // namespace

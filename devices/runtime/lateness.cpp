@@ -1,0 +1,46 @@
+#include "devices/runtime/lateness.h"
+
+#include <cerrno>
+#include <cmath>
+#include <ctime>
+#include <limits>
+
+#include <pthread.h>
+#include <sched.h>
+
+namespace focalstage {
+
+Lateness::Lateness() {
+  for (const double up_to_us : {50.0, 100.0, 200.0, 500.0, 1e3, 2e3, 5e3, 10e3, 20e3, 50e3}) {
+    bins_.push_back({up_to_us, 0});
+  }
+  bins_.push_back({std::numeric_limits<double>::infinity(), 0});
+}
+
+void Lateness::add(double late_s) {
+  for (LatenessBin& bin : bins_) {
+    if (late_s * 1e6 > bin.up_to_us) continue;
+    ++bin.sweeps;
+    return;
+  }
+}
+
+void sleep_until(double time_s) {
+  const double whole_s = std::floor(time_s);
+  const timespec until{static_cast<time_t>(whole_s), static_cast<long>((time_s - whole_s) * 1e9)};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+  }
+}
+
+double monotonic_s() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+void prefer_this_thread() {
+  const sched_param priority{sched_get_priority_min(SCHED_FIFO)};
+  (void)pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
+}
+
+}  // namespace focalstage

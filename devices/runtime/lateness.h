@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "io/protocol/rig_values.h"
+
+namespace focalstage {
+
+/// How late sweeps were handed over, against the plan.
+class Lateness {
+ public:
+  Lateness();
+
+  void add(double late_s);
+  const std::vector<LatenessBin>& bins() const { return bins_; }
+
+ private:
+  std::vector<LatenessBin> bins_;
+};
+
+/// Sleeps until the monotonic clock shows `time_s`.
+void sleep_until(double time_s);
+
+/// The monotonic clock.
+double monotonic_s();
+
+/// Asks the system to run this thread before others; fine if it will not.
+void prefer_this_thread();
+
+}  // namespace focalstage

@@ -1,0 +1,159 @@
+#include "devices/runtime/rig_service.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include <spdlog/spdlog.h>
+
+#include "devices/runtime/show_loader.h"
+#include "devices/runtime/sim_description.h"
+#include "io/protocol/convert.h"
+
+namespace focalstage {
+
+namespace {
+
+/// A fault leaves as a status, and stays in the log.
+grpc::Status refused(const char* call, const Fault& fault) {
+  spdlog::warn("{}: {}", call, describe(fault));
+  return status_from(fault);
+}
+
+Fault bad_digest(int chunk) {
+  return {"rig.request", "chunk_sha256 " + std::to_string(chunk), "it has not 32 bytes",
+          "push with this program's client"};
+}
+
+}  // namespace
+
+v1::RigState RigService::state() const {
+  RigState state = rig_.state();
+  state.holder = desk_.holder();
+  return message_from(state);
+}
+
+/// What needs the rig for oneself: the token first, then the step, then the state after it.
+template <class Step>
+grpc::Status RigService::held(const std::string& token, v1::RigState* reply, Step step) {
+  if (Status mine = desk_.use(token); !mine) return status_from(mine.fault());
+  if (Status done = step(); !done) return refused("command", done.fault());
+  *reply = state();
+  return grpc::Status::OK;
+}
+
+grpc::Status RigService::Describe(grpc::ServerContext*, const v1::DescribeRequest* request, v1::RigDescription* reply) {
+  const double asked_hz = request->frequency_hz();
+  const double frequency_hz = std::isfinite(asked_hz) && asked_hz > 0.0 ? asked_hz : 60.0;
+  *reply = message_from(describe_sim(settings_.sim, settings_.limits, frequency_hz));
+  return grpc::Status::OK;
+}
+
+grpc::Status RigService::Acquire(grpc::ServerContext*, const v1::AcquireRequest* request, v1::Lease* reply) {
+  Result<std::string> token = desk_.acquire(request->holder());
+  if (!token) return status_from(token.fault());
+  spdlog::info("{} holds the rig", desk_.holder());
+  reply->set_token(std::move(*token));
+  reply->set_expires_in_s(std::chrono::duration<double>(desk_.lasts()).count());
+  return grpc::Status::OK;
+}
+
+grpc::Status RigService::Release(grpc::ServerContext*, const v1::ReleaseRequest* request, v1::ReleaseReply*) {
+  desk_.release(request->token());
+  return grpc::Status::OK;
+}
+
+grpc::Status RigService::BeginPush(grpc::ServerContext*, const v1::BeginPushRequest* request, v1::PushProgress* reply) {
+  if (Status mine = desk_.use(request->token()); !mine) return status_from(mine.fault());
+  std::vector<Sha256Value> chunks(static_cast<std::size_t>(request->chunk_sha256_size()));
+  for (int i = 0; i < request->chunk_sha256_size(); ++i) {
+    const std::string& bytes = request->chunk_sha256(i);
+    Sha256Value& digest = chunks[static_cast<std::size_t>(i)];
+    if (bytes.size() != digest.size()) return refused("push", bad_digest(i));
+    std::ranges::transform(bytes, digest.begin(), [](char c) { return static_cast<std::uint8_t>(c); });
+  }
+  const auto progress = store_.begin(request->sha256(), request->size_bytes(), std::move(chunks));
+  if (!progress) return refused("push", progress.fault());
+  spdlog::info("push of {}: {} of {} bytes are here", request->sha256(), progress->received_bytes,
+               request->size_bytes());
+  reply->set_received_bytes(progress->received_bytes);
+  reply->set_complete(progress->complete);
+  return grpc::Status::OK;
+}
+
+grpc::Status RigService::PushChunk(grpc::ServerContext*, const v1::PushChunkRequest* request, v1::PushProgress* reply) {
+  if (Status mine = desk_.use(request->token()); !mine) return status_from(mine.fault());
+  const auto progress = store_.add(request->sha256(), request->offset_bytes(), request->data());
+  if (!progress) return refused("push", progress.fault());
+  reply->set_received_bytes(progress->received_bytes);
+  reply->set_complete(progress->complete);
+  return grpc::Status::OK;
+}
+
+grpc::Status RigService::FinishPush(grpc::ServerContext*, const v1::FinishPushRequest* request, v1::PushVerified*) {
+  if (Status mine = desk_.use(request->token()); !mine) return status_from(mine.fault());
+  if (Status whole = store_.finish(request->sha256()); !whole) return refused("push", whole.fault());
+  (void)desk_.use(request->token());
+  spdlog::info("push of {} is whole and verified", request->sha256());
+  return grpc::Status::OK;
+}
+
+grpc::Status RigService::Activate(grpc::ServerContext*, const v1::ActivateRequest* request, v1::RigState* reply) {
+  return held(request->token(), reply, [&]() -> Status {
+    const auto path = store_.find(request->sha256());
+    if (!path) return path.fault();
+    const auto rig_at = [&](double hz) { return describe_sim(settings_.sim, settings_.limits, hz); };
+    auto show = load_show(*path, request->sha256(), rig_at, settings_.limits);
+    if (!show) return show.fault();
+    if (Status active = rig_.activate(std::move(*show)); !active) return active;
+    spdlog::info("show {} is active", request->sha256());
+    return {};
+  });
+}
+
+grpc::Status RigService::Play(grpc::ServerContext*, const v1::PlayRequest* request, v1::RigState* reply) {
+  return held(request->token(), reply, [&] { return rig_.play(request->sweeps()); });
+}
+
+grpc::Status RigService::Hold(grpc::ServerContext*, const v1::HoldRequest* request, v1::RigState* reply) {
+  return held(request->token(), reply, [&] { return rig_.hold(); });
+}
+
+grpc::Status RigService::Cue(grpc::ServerContext*, const v1::CueRequest* request, v1::RigState* reply) {
+  return held(request->token(), reply, [&] { return rig_.cue(request->name()); });
+}
+
+grpc::Status RigService::Go(grpc::ServerContext*, const v1::GoRequest* request, v1::RigState* reply) {
+  return held(request->token(), reply, [&] { return rig_.go(); });
+}
+
+grpc::Status RigService::Blackout(grpc::ServerContext*, const v1::BlackoutRequest*, v1::RigState* reply) {
+  rig_.blackout();
+  spdlog::warn("blackout");
+  *reply = state();
+  return grpc::Status::OK;
+}
+
+grpc::Status RigService::GetState(grpc::ServerContext*, const v1::GetStateRequest*, v1::RigState* reply) {
+  *reply = state();
+  return grpc::Status::OK;
+}
+
+grpc::Status RigService::Watch(grpc::ServerContext* context, const v1::WatchRequest* request,
+                               grpc::ServerWriter<v1::RigState>* writer) {
+  using namespace std::chrono;
+  const double asked_s = request->interval_s();
+  const double interval_s = std::isfinite(asked_s) && asked_s > 0.0 ? std::clamp(asked_s, 0.01, 10.0) : 0.1;
+  const auto interval = duration_cast<milliseconds>(duration<double>(interval_s));
+  while (!stopping_ && !context->IsCancelled() && writer->Write(state())) {
+    const auto next = steady_clock::now() + interval;
+    while (!stopping_ && !context->IsCancelled() && steady_clock::now() < next) {
+      std::this_thread::sleep_for(std::min(interval, milliseconds(50)));
+    }
+  }
+  return grpc::Status::OK;
+}
+
+}  // namespace focalstage

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <atomic>
+
+#include "devices/runtime/lease.h"
+#include "devices/runtime/rig_thread.h"
+#include "devices/runtime/show_store.h"
+#include "focalstage/v1/rig.grpc.pb.h"
+
+namespace focalstage {
+
+/// The calls of rig.proto, each turned into one step of store, lease or rig.
+class RigService final : public v1::Rig::Service {
+ public:
+  RigService(const RigThreadSettings& settings, ShowStore& store, RigThread& rig, LeaseDesk& desk)
+      : settings_(settings), store_(store), rig_(rig), desk_(desk) {}
+
+  /// Ends all watching, so that the server can go.
+  void stop() { stopping_ = true; }
+
+  grpc::Status Describe(grpc::ServerContext*, const v1::DescribeRequest*, v1::RigDescription*) override;
+  grpc::Status Acquire(grpc::ServerContext*, const v1::AcquireRequest*, v1::Lease*) override;
+  grpc::Status Release(grpc::ServerContext*, const v1::ReleaseRequest*, v1::ReleaseReply*) override;
+  grpc::Status BeginPush(grpc::ServerContext*, const v1::BeginPushRequest*, v1::PushProgress*) override;
+  grpc::Status PushChunk(grpc::ServerContext*, const v1::PushChunkRequest*, v1::PushProgress*) override;
+  grpc::Status FinishPush(grpc::ServerContext*, const v1::FinishPushRequest*, v1::PushVerified*) override;
+  grpc::Status Activate(grpc::ServerContext*, const v1::ActivateRequest*, v1::RigState*) override;
+  grpc::Status Play(grpc::ServerContext*, const v1::PlayRequest*, v1::RigState*) override;
+  grpc::Status Hold(grpc::ServerContext*, const v1::HoldRequest*, v1::RigState*) override;
+  grpc::Status Cue(grpc::ServerContext*, const v1::CueRequest*, v1::RigState*) override;
+  grpc::Status Go(grpc::ServerContext*, const v1::GoRequest*, v1::RigState*) override;
+  grpc::Status Blackout(grpc::ServerContext*, const v1::BlackoutRequest*, v1::RigState*) override;
+  grpc::Status GetState(grpc::ServerContext*, const v1::GetStateRequest*, v1::RigState*) override;
+  grpc::Status Watch(grpc::ServerContext*, const v1::WatchRequest*, grpc::ServerWriter<v1::RigState>*) override;
+
+ private:
+  v1::RigState state() const;
+  template <class Step>
+  grpc::Status held(const std::string& token, v1::RigState* reply, Step step);
+
+  RigThreadSettings settings_;
+  ShowStore& store_;
+  RigThread& rig_;
+  LeaseDesk& desk_;
+  std::atomic<bool> stopping_ = false;
+};
+
+}  // namespace focalstage

@@ -1,0 +1,186 @@
+#include "devices/runtime/rig_thread.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "devices/runtime/detection.h"
+
+namespace focalstage {
+
+namespace {
+
+PlayerSettings player_settings(const RigThreadSettings& settings) {
+  return {settings.at_end, 2, settings.clock == RigClock::virtual_time};
+}
+
+Fault missed_light() {
+  return {"rig.missed-light", "projector", "light was missed in more than one sweep within a second",
+          "see that nothing else keeps this machine busy, then say go"};
+}
+
+}  // namespace
+
+RigThread::RigThread(const RigThreadSettings& settings)
+    : settings_(settings),
+      sim_(settings.sim, settings.faults),
+      limited_(sim_, settings.limits),
+      player_(limited_, player_settings(settings)),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+RigThread::~RigThread() {
+  blackout();
+  thread_.request_stop();
+  changed_.notify_all();
+}
+
+double RigThread::now_s() const { return settings_.clock == RigClock::real_time ? monotonic_s() : next_start_s_; }
+
+/// In virtual time nothing moves while nothing plays.
+bool RigThread::has_work() const {
+  if (settings_.clock == RigClock::real_time) return player_.running();
+  return player_.state() == PlayState::playing || player_.next_show() != nullptr;
+}
+
+void RigThread::run(const std::stop_token& stop) {
+  if (settings_.clock == RigClock::real_time) prefer_this_thread();
+  std::unique_lock lock(mutex_);
+  while (changed_.wait(lock, stop, [&] { return has_work(); })) {
+    const double period_s = player_.period_s();
+    const double ahead_s = settings_.sweeps_ahead * period_s;
+    if (!on_time_) {
+      if (settings_.clock == RigClock::real_time) next_start_s_ = monotonic_s() + ahead_s;
+      on_time_ = true;
+    }
+    if (settings_.clock == RigClock::real_time) {
+      const double planned_s = next_start_s_ - ahead_s;
+      lock.unlock();
+      sleep_until(planned_s);
+      lock.lock();
+      if (!player_.running() || !on_time_) continue;
+      const double now = monotonic_s();
+      lateness_.add(now - planned_s);
+      if (skip_if_late(now)) continue;
+    }
+    hand_over_next();
+    settle_until(settings_.clock == RigClock::real_time ? monotonic_s() : next_start_s_ - 2.0 * period_s);
+    if (settings_.clock == RigClock::virtual_time && !has_work()) settle_until(next_start_s_);
+    changed_.notify_all();
+  }
+}
+
+/// A sweep that begins before it could be handed over stays dark, and is counted.
+bool RigThread::skip_if_late(double now) {
+  if (now < next_start_s_) return false;
+  const double period_s = player_.period_s();
+  const double lost = std::floor((now - next_start_s_) / period_s) + 1.0;
+  const auto sweeps = static_cast<std::uint64_t>(lost);
+  late_sweeps_ += sweeps;
+  never_handed_over_ += sweeps * player_.show()->plan.trigger_s.size();
+  for (std::uint64_t n = 0; n < std::min<std::uint64_t>(sweeps, 2); ++n) {
+    note_faulty(next_start_s_ + static_cast<double>(n) * period_s);
+  }
+  player_.skip(sweeps);
+  next_start_s_ += lost * period_s;
+  return true;
+}
+
+void RigThread::hand_over_next() {
+  AskedSweep sweep = player_.hand_over(next_start_s_);
+  if (sweep.missed) ++late_sweeps_;
+  next_start_s_ += sweep.show->plan.period_s;
+  ledger_.ask(std::move(sweep));
+  if (!player_.running()) on_time_ = false;
+}
+
+void RigThread::settle_until(double time_s) {
+  sim_.run_until(time_s);
+  ledger_.deliver(sim_.take_delivered());
+  ledger_.settle_until(time_s);
+  for (const double sweep_s : ledger_.take_faulty_sweeps()) note_faulty(sweep_s);
+}
+
+/// One sweep without its light may be; a second one within the time in which the projector's status shows it is a
+/// doubt: below a steady picture lies flicker, which is worse than darkness.
+void RigThread::note_faulty(double sweep_s) {
+  faulty_sweeps_s_.push_back(sweep_s);
+  const double watched_s = detection_s(Doubt::projector_status, player_.period_s());
+  while (sweep_s - faulty_sweeps_s_.front() > watched_s) faulty_sweeps_s_.pop_front();
+  if (faulty_sweeps_s_.size() > 1 && player_.running()) make_dark(missed_light());
+}
+
+void RigThread::make_dark(const Fault& fault) {
+  const double at_s = now_s();
+  player_.blackout(at_s, fault);
+  ledger_.call_off_after(at_s);
+  on_time_ = false;
+}
+
+Status RigThread::activate(std::shared_ptr<const LoadedShow> show) {
+  if (const auto first = show->frames->wait_for(0); !first) return first.fault();
+  std::unique_lock lock(mutex_);
+  player_.activate(show);
+  changed_.notify_all();
+  const bool there = changed_.wait_for(lock, std::chrono::seconds(10), [&] { return player_.next_show() != show; });
+  if (there) return {};
+  return Fault{"rig.refused", "show", "its first frame could not be read in time", "look at the rig's log"};
+}
+
+Status RigThread::command(Status (Player::*what)()) {
+  const std::lock_guard lock(mutex_);
+  Status done = (player_.*what)();
+  changed_.notify_all();
+  return done;
+}
+
+Status RigThread::play(std::uint64_t sweeps) {
+  const std::lock_guard lock(mutex_);
+  Status done = player_.play(sweeps);
+  changed_.notify_all();
+  return done;
+}
+
+Status RigThread::hold() { return command(&Player::hold); }
+
+Status RigThread::cue(const std::string& name) {
+  const std::lock_guard lock(mutex_);
+  return player_.cue(name);
+}
+
+Status RigThread::go() {
+  const std::lock_guard lock(mutex_);
+  faulty_sweeps_s_.clear();
+  return player_.go();
+}
+
+void RigThread::blackout() {
+  const std::lock_guard lock(mutex_);
+  const double at_s = now_s();
+  player_.blackout(at_s);
+  ledger_.call_off_after(at_s);
+  on_time_ = false;
+  changed_.notify_all();
+}
+
+RigState RigThread::state() const {
+  const std::lock_guard lock(mutex_);
+  RigState state;
+  state.state = name_of(player_.state());
+  if (player_.show()) state.show_sha256 = player_.show()->sha256;
+  state.sweeps = player_.sweeps();
+  state.missed_exposures = ledger_.missed() + never_handed_over_;
+  if (player_.running()) {
+    const double sweeps = (now_s() - next_start_s_) / player_.period_s();
+    state.lens_phase = sweeps - std::floor(sweeps);
+  }
+  state.temperature_c = 25.0;
+  if (player_.fault()) state.fault = describe(*player_.fault());
+  state.slots = ledger_.slots();
+  state.frame = player_.frame();
+  state.late_sweeps = late_sweeps_;
+  state.lateness = lateness_.bins();
+  return state;
+}
+
+}  // namespace focalstage

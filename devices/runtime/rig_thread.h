@@ -1,0 +1,78 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "devices/player/player.h"
+#include "devices/runtime/lateness.h"
+#include "devices/runtime/slot_ledger.h"
+#include "devices/sim/sim_rig.h"
+#include "io/protocol/rig_values.h"
+
+namespace focalstage {
+
+enum class RigClock { real_time, virtual_time };
+
+struct RigThreadSettings {
+  SimSettings sim;
+  SimFaults faults;
+  RigLimits limits;
+  RigClock clock = RigClock::real_time;
+  AtEnd at_end = AtEnd::loop;
+  int sweeps_ahead = 4;  ///< handed over before they begin, so that a pause of this program is not seen
+};
+
+/// Plays shows on the simulated rig, sweep after sweep, in a thread of its own. In real time sweeps are handed over a
+/// few ahead; in virtual time the clock runs as fast as it can while a show plays and stands still otherwise.
+///
+/// Every call may come from any thread. Blackout does not wait for the sweep to end.
+class RigThread {
+ public:
+  explicit RigThread(const RigThreadSettings& settings);
+  ~RigThread();  ///< dark first
+
+  /// Returns once the show has taken the place of the one before: "rig.refused" if its first frame can't be had.
+  Status activate(std::shared_ptr<const LoadedShow> show);
+  Status play(std::uint64_t sweeps);
+  Status hold();
+  Status cue(const std::string& name);
+  Status go();
+  void blackout();
+
+  RigState state() const;
+
+ private:
+  void run(const std::stop_token& stop);
+  bool has_work() const;
+  void hand_over_next();
+  bool skip_if_late(double now_s);
+  void settle_until(double time_s);
+  void note_faulty(double sweep_s);
+  void make_dark(const Fault& fault);
+  double now_s() const;
+  Status command(Status (Player::*what)());
+
+  RigThreadSettings settings_;
+  mutable std::mutex mutex_;
+  mutable std::condition_variable_any changed_;
+  SimRig sim_;
+  LimitedRig limited_;
+  Player player_;
+  SlotLedger ledger_;
+  Lateness lateness_;
+  double next_start_s_ = 0.0;
+  bool on_time_ = false;  ///< the timeline runs: the next sweep follows the one before
+  std::uint64_t late_sweeps_ = 0;
+  std::uint64_t never_handed_over_ = 0;
+  std::deque<double> faulty_sweeps_s_;
+  std::jthread thread_;
+};
+
+}  // namespace focalstage

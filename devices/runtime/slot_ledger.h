@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "devices/player/player.h"
+#include "devices/sim/sim_rig.h"
+#include "io/protocol/rig_values.h"
+
+namespace focalstage {
+
+/// What counts as delivered (design section 8).
+struct DeliveryTolerance {
+  double power_d = 0.02;
+  double time_s = 20e-6;
+  double transmission = 1e-3;  ///< this close to clear is open, this close to nothing is closed
+};
+
+/// Holds what was asked against what was delivered, slot by slot, the worst over all sweeps since the show began.
+class SlotLedger {
+ public:
+  explicit SlotLedger(const DeliveryTolerance& tolerance = {}) : tolerance_(tolerance) {}
+
+  void ask(AskedSweep sweep);
+  void deliver(std::vector<DeliveredExposure> exposures);
+
+  /// Settles all sweeps that ended by `time_s`; everything delivered until then was handed in.
+  void settle_until(double time_s);
+
+  /// What was asked for after `time_s` was called off.
+  void call_off_after(double time_s);
+
+  const std::vector<SlotReport>& slots() const { return slots_; }
+  std::uint64_t missed() const { return missed_; }
+
+  /// Starts of the sweeps settled since the last call in which light was missed.
+  std::vector<double> take_faulty_sweeps();
+
+ private:
+  void begin_show(const std::shared_ptr<const LoadedShow>& show);
+  bool settle(const AskedSweep& sweep, std::size_t slot);
+  void settle(const AskedSweep& sweep);
+  const DeliveredExposure* find(double start_s, double within_s) const;
+
+  DeliveryTolerance tolerance_;
+  std::shared_ptr<const LoadedShow> show_;
+  std::deque<AskedSweep> asked_;
+  std::deque<DeliveredExposure> delivered_;
+  std::vector<SlotReport> slots_;
+  std::vector<double> faulty_;
+  std::uint64_t missed_ = 0;
+};
+
+}  // namespace focalstage

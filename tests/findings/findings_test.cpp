@@ -1,0 +1,135 @@
+// For each code a project, `<code>/<code>.focal`, that raises exactly it; its remedy, applied, clears it.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "core/check/check.h"
+#include "core/check/rig_differences.h"
+#include "core/compile/compile.h"
+#include "core/compile/coverage.h"
+#include "core/optics/image_plan.h"
+#include "core/schedule/schedule.h"
+#include "core/stage/stage.h"
+#include "io/project/project_file.h"
+
+using namespace focalstage;
+
+namespace {
+
+const std::filesystem::path folder = std::filesystem::path(FOCALSTAGE_SOURCE_DIR) / "tests" / "findings";
+
+Project load(const std::string& code) {
+  const Result<LoadedProject> loaded = load_project(folder / code);
+  REQUIRE_MESSAGE(loaded.ok(), (loaded.ok() ? std::string() : describe(loaded.fault())));
+  return loaded->project;
+}
+
+/// All that `compile` finds: every frame staged, compiled and looked at. The projects hold primitives alone.
+std::vector<Finding> findings_of(const Project& project) {
+  const CompileSettings settings = compile_settings(project);
+  Compiler compiler(settings, 1);
+  Measured measured;
+  for (int frame = 0; frame < project.frames.count; ++frame) {
+    const Result<Stage> staged = stage(project, Assets{}, frame / project.frames.rate_hz);
+    REQUIRE(staged.ok());
+    Result<CompiledFrame> compiled = compiler.frame(*staged);
+    REQUIRE(compiled.ok());
+    measured.frames.push_back(compiled->measure);
+    measured.coverage.push_back(measure_coverage(*staged, settings.projector, settings.lens_to_pupil_m,
+                                                 project.glasses.lens_aperture_mm / 1000.0));
+  }
+  return check(project, make_schedule(project, settings.images), measured);
+}
+
+std::set<std::string> codes(const std::vector<Finding>& findings) {
+  std::set<std::string> all;
+  for (const Finding& finding : findings) all.insert(finding.code);
+  return all;
+}
+
+std::size_t count(const std::vector<Finding>& findings, const std::string& code) {
+  return static_cast<std::size_t>(
+      std::count_if(findings.begin(), findings.end(), [&](const Finding& f) { return f.code == code; }));
+}
+
+/// Applies the finding's remedy; there is one fewer of its code then, and no error that was not there.
+void check_cleared(const Project& project, const std::vector<Finding>& before, const Finding& finding) {
+  REQUIRE_FALSE(finding.remedy.empty());
+  const Result<Project> after = apply_all(project, finding.remedy);
+  REQUIRE_MESSAGE(after.ok(), (after.ok() ? std::string() : describe(after.fault())));
+  const std::vector<Finding> left = findings_of(*after);
+  CHECK(count(left, finding.code) < count(before, finding.code));
+  for (const Finding& other : left) {
+    if (other.severity == Severity::error) CHECK(other.code == finding.code);
+  }
+}
+
+void check_code(const std::string& code, Severity severity, bool remedied) {
+  CAPTURE(code);
+  const Project project = load(code);
+  const std::vector<Finding> findings = findings_of(project);
+  CHECK(codes(findings) == std::set<std::string>{code});
+  for (const Finding& finding : findings) {
+    CAPTURE(finding.message);
+    CHECK(finding.severity == severity);
+    CHECK(finding.amount);
+    if (remedied) {
+      check_cleared(project, findings, finding);
+    } else {
+      CHECK(finding.remedy.empty());
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("slices.spacing") { check_code("slices.spacing", Severity::warning, true); }
+TEST_CASE("slices.outside-sweep") { check_code("slices.outside-sweep", Severity::error, true); }
+TEST_CASE("schedule.hidden-by-shutter") { check_code("schedule.hidden-by-shutter", Severity::error, true); }
+TEST_CASE("schedule.overlap") { check_code("schedule.overlap", Severity::error, true); }
+TEST_CASE("schedule.smear") { check_code("schedule.smear", Severity::warning, true); }
+TEST_CASE("schedule.bit-depth") { check_code("schedule.bit-depth", Severity::error, true); }
+TEST_CASE("schedule.no-zero-crossing") { check_code("schedule.no-zero-crossing", Severity::error, true); }
+TEST_CASE("optics.lens-range") { check_code("optics.lens-range", Severity::error, true); }
+TEST_CASE("depth.out-of-range") { check_code("depth.out-of-range", Severity::error, true); }
+TEST_CASE("frames.rate") { check_code("frames.rate", Severity::error, true); }
+TEST_CASE("safety.flicker") { check_code("safety.flicker", Severity::warning, true); }
+TEST_CASE("view.outside-projector") { check_code("view.outside-projector", Severity::warning, false); }
+TEST_CASE("view.off-surface") { check_code("view.off-surface", Severity::warning, false); }
+TEST_CASE("view.outside-lens") { check_code("view.outside-lens", Severity::warning, false); }
+TEST_CASE("light.clipped") { check_code("light.clipped", Severity::warning, false); }
+TEST_CASE("projector.defocus") { check_code("projector.defocus", Severity::warning, false); }
+
+TEST_CASE("rig.differs") {
+  const Project project = load("rig.differs");
+  CHECK(findings_of(project).empty());
+  RigValues rig;  // as the project's, but for a lens that lags
+  rig.latency_ms = project.projectors[0].latency_ms;
+  rig.width_px = project.projectors[0].width_px;
+  rig.height_px = project.projectors[0].height_px;
+  CHECK(rig_differences(project, rig).empty());
+  rig.lens_response.left = rig.lens_response.right = {{0, 38.0, 0.0, {}}, {1, 36.0, -14.0, {}}};
+  const std::vector<Finding> findings = rig_differences(project, rig);
+  REQUIRE(codes(findings) == std::set<std::string>{"rig.differs"});
+  const Result<Project> adopted = apply_all(project, findings[0].remedy);
+  REQUIRE(adopted.ok());
+  CHECK(rig_differences(*adopted, rig).empty());
+}
+
+TEST_CASE("every project here belongs to a test, and every code of the design to a project") {
+  const std::set<std::string> expected{
+      "slices.spacing",     "slices.outside-sweep", "schedule.hidden-by-shutter", "schedule.overlap",
+      "schedule.smear",     "schedule.bit-depth",   "schedule.no-zero-crossing",  "optics.lens-range",
+      "depth.out-of-range", "frames.rate",          "view.outside-projector",     "view.off-surface",
+      "view.outside-lens",  "light.clipped",        "projector.defocus",          "safety.flicker",
+      "rig.differs"};
+  std::set<std::string> found;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.is_directory()) found.insert(entry.path().filename().string());
+  }
+  CHECK(found == expected);
+}
