@@ -12,3 +12,4 @@ function(focalstage_program folder)
 endfunction()
 
 focalstage_program(editor/program NAME focalstage USES editor/cli)
+focalstage_program(devices/program NAME focalstage-runtime USES devices/runtime LIBS CLI11::CLI11 spdlog::spdlog)

@@ -75,7 +75,7 @@ glm::dvec3 Shader::color(const ViewTriangle& triangle, double look_x, double loo
   if (uniform_) return uniform_color_;
   glm::dvec3 weights{triangle.edge(0, look_x, look_y), triangle.edge(1, look_x, look_y),
                      triangle.edge(2, look_x, look_y)};
-  weights /= weights.x + weights.y + weights.z;
+  weights *= 1.0 / (weights.x + weights.y + weights.z);
   const Mesh& mesh = *drawable_->mesh;
   glm::dvec2 uv(0.0);
   if (needs_uv_) {

@@ -40,15 +40,44 @@ void add(const SliceRun& run, const glm::dvec3& color, float weight, int i, Tile
   for (int c = 0; c < 3; ++c) light.channel[c][i] += weight * static_cast<float>(color[c]);
 }
 
-void tally(const SliceRun& run, bool pinned, float wanted_d, ObjectTally& out) {
-  constexpr double limit_d = 0.3;
-  ++out.samples;
-  const double beyond_d = pinned ? 0.0 : run.rule->beyond_d(wanted_d);
-  out.worst_beyond_d = std::max(out.worst_beyond_d, beyond_d);
-  double& own_side_d = run.rule->is_below(wanted_d) ? out.worst_below_d : out.worst_above_d;
-  own_side_d = std::max(own_side_d, beyond_d);
-  if (beyond_d > limit_d) ++out.beyond;
-}
+/// Counts lit samples; most neighbours belong to the same object, so it keeps one tally at hand.
+class Counter {
+ public:
+  Counter(const SliceRule& rule, std::vector<ObjectTally>& tallies)
+      : lowest_d_(static_cast<float>(rule.lowest_d())), highest_d_(static_cast<float>(rule.highest_d())), tallies_(tallies) {}
+  ~Counter() { put_back(); }
+
+  void count(std::uint32_t owner, bool pinned, float wanted_d) {
+    if (owner != owner_) {
+      put_back();
+      owner_ = owner;
+    }
+    ++now_.samples;
+    const float beyond_d = pinned ? 0.0f : std::max(lowest_d_ - wanted_d, wanted_d - highest_d_);
+    if (beyond_d > worst_d_) worst_d_ = beyond_d;
+    if (beyond_d > limit_d) ++now_.beyond;
+  }
+
+ private:
+  static constexpr float limit_d = 0.3f;
+
+  void put_back() {
+    if (now_.samples == 0) return;
+    ObjectTally& sum = tallies_[owner_];
+    sum.samples += now_.samples;
+    sum.beyond += now_.beyond;
+    sum.worst_beyond_d = std::max<double>(sum.worst_beyond_d, worst_d_);
+    now_ = {};
+    worst_d_ = 0.0f;
+  }
+
+  float lowest_d_;
+  float highest_d_;
+  std::vector<ObjectTally>& tallies_;
+  std::uint32_t owner_ = 0;
+  ObjectTally now_;
+  float worst_d_ = 0.0f;
+};
 
 }  // namespace
 
@@ -66,6 +95,7 @@ void slice_tile(const SliceRun& run, const EyeView& view, const EyeTile& tile, c
   if (slice.empty) std::fill_n(weights.weight, tile_samples, 0.0f);
   pin(view, nearest, static_cast<int>(slice_index), weights);
 
+  Counter counter(*run.rule, tallies);
   for (int i = 0; i < tile_samples; ++i) {
     if (!(weights.weight[i] > 0.0f)) continue;
     const ViewTriangle& triangle = met(view, nearest, i);
@@ -73,7 +103,7 @@ void slice_tile(const SliceRun& run, const EyeView& view, const EyeTile& tile, c
         triangle, tile.origin_x + static_cast<double>(looks.x[i]), tile.origin_y + static_cast<double>(looks.y[i]));
     add(run, color, weights.weight[i] * run.share, i, light);
     light.any = true;
-    tally(run, view.rules[triangle.drawable].slice >= 0, weights.wanted_d[i], tallies[view.owner[triangle.drawable]]);
+    counter.count(view.owner[triangle.drawable], view.rules[triangle.drawable].slice >= 0, weights.wanted_d[i]);
   }
 }
 

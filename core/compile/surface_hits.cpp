@@ -20,33 +20,6 @@ void take_in(Box& box, float x, float y) {
   box.max_y = std::max(box.max_y, y);
 }
 
-/// Single-precision looks of one tile about the first that is a number; where there is none, `any` stays false.
-struct LocalLooks {
-  TileLooks looks;
-  double origin_x = 0.0;
-  double origin_y = 0.0;
-  bool any = false;
-};
-
-LocalLooks local_looks(const double* x, const double* y, const Kernel& kernel) {
-  LocalLooks local;
-  TileHits plain;
-  for (int i = 0; i < tile_samples; ++i) {
-    if (!local.any && x[i] == x[i]) {
-      local.any = true;
-      local.origin_x = x[i];
-      local.origin_y = y[i];
-    }
-    plain.surface_m[i] = 1.0f;
-  }
-  for (int i = 0; i < tile_samples; ++i) {
-    plain.x[i] = static_cast<float>(x[i] - local.origin_x);
-    plain.y[i] = static_cast<float>(y[i] - local.origin_y);
-  }
-  kernel.place(plain, local.origin_x, local.origin_y, 0.0f, 0.0f, local.looks);
-  return local;
-}
-
 TileRays rays_of_tile(const ProjectorModel& projector, int column, int row, double offset_x, double offset_y) {
   TileRays rays;
   for (int i = 0; i < tile_samples; ++i) {
@@ -93,6 +66,25 @@ void meet(const TileRays& rays, const ViewTriangles& view, const KernelView& in_
 }
 
 }  // namespace
+
+LocalLooks local_looks(const double* x, const double* y, const Kernel& kernel) {
+  LocalLooks local;
+  TileHits plain;
+  for (int i = 0; i < tile_samples; ++i) {
+    if (!local.any && x[i] == x[i]) {
+      local.any = true;
+      local.origin_x = x[i];
+      local.origin_y = y[i];
+    }
+    plain.surface_m[i] = 1.0f;
+  }
+  for (int i = 0; i < tile_samples; ++i) {
+    plain.x[i] = static_cast<float>(x[i] - local.origin_x);
+    plain.y[i] = static_cast<float>(y[i] - local.origin_y);
+  }
+  kernel.place(plain, local.origin_x, local.origin_y, 0.0f, 0.0f, local.looks);
+  return local;
+}
 
 double nearest_seen_m(double lens_to_pupil_m) { return lens_to_pupil_m + 1e-3; }
 

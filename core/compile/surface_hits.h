@@ -69,6 +69,16 @@ struct EyeHits {
 EyeHits eye_hits(const ProjectorHits& met, const TileGrid& grid, const Rigid& world_from_projector, const Eye& eye,
                  const std::vector<ViewDrawable>& surfaces, Breathing breathing, const Kernel& kernel);
 
+/// Single-precision looks of one tile about the first that is a number; where there is none, `any` stays false.
+struct LocalLooks {
+  TileLooks looks;
+  double origin_x = 0.0;
+  double origin_y = 0.0;
+  bool any = false;
+};
+
+LocalLooks local_looks(const double* x, const double* y, const Kernel& kernel);
+
 /// Nearer to the pupil than this nobody sees anything: just before the lens.
 double nearest_seen_m(double lens_to_pupil_m);
 

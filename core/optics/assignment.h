@@ -32,6 +32,9 @@ class SliceRule {
 
   Assignment assignment() const { return assignment_; }
 
+  double lowest_d() const { return lowest_d_; }
+  double highest_d() const { return highest_d_; }
+
   /// How far `power_d` lies beyond the outermost slice; 0 within.
   double beyond_d(double power_d) const;
 

@@ -33,18 +33,29 @@ Result<FrameCache::Frame> FrameCache::wait_for(int frame) {
   return ready_.at(frame);
 }
 
+bool FrameCache::prepare(int frame) {
+  const std::lock_guard lock(mutex_);
+  prepared_ = frame;
+  changed_.notify_all();
+  return ready_.contains(frame) || failed_.contains(frame);
+}
+
 int FrameCache::distance_ahead(int frame) const { return (frame - wanted_ + frames_) % frames_; }
 
 std::optional<int> FrameCache::next_missing() const {
-  for (int ahead = 0; ahead < kept_; ++ahead) {
+  const auto missing = [&](int frame) { return !ready_.contains(frame) && !failed_.contains(frame); };
+  if (missing(wanted_)) return wanted_;
+  if (prepared_ && missing(*prepared_)) return prepared_;
+  for (int ahead = 1; ahead < kept_; ++ahead) {
     const int frame = (wanted_ + ahead) % frames_;
-    if (!ready_.contains(frame) && !failed_.contains(frame)) return frame;
+    if (missing(frame)) return frame;
   }
   return std::nullopt;
 }
 
 void FrameCache::forget_far_frames() {
-  std::erase_if(ready_, [&](const auto& entry) { return distance_ahead(entry.first) >= kept_; });
+  std::erase_if(ready_,
+                [&](const auto& entry) { return distance_ahead(entry.first) >= kept_ && entry.first != prepared_; });
 }
 
 void FrameCache::read_ahead(const std::stop_token& stop) {

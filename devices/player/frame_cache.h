@@ -40,6 +40,10 @@ class FrameCache {
   /// The same, but waits until it is there.
   Result<Frame> wait_for(int frame);
 
+  /// True once `frame`, to which play is about to jump, need not be waited for: it is there, or can't be read. What
+  /// plays now is read and kept as before.
+  bool prepare(int frame);
+
  private:
   void read_ahead(const std::stop_token& stop);
   std::optional<int> next_missing() const;
@@ -52,6 +56,7 @@ class FrameCache {
   mutable std::mutex mutex_;
   std::condition_variable_any changed_;
   int wanted_ = 0;
+  std::optional<int> prepared_;
   std::map<int, Frame> ready_;
   std::map<int, Fault> failed_;
   std::jthread reader_;

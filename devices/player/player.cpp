@@ -48,6 +48,7 @@ void Player::begin(std::shared_ptr<const LoadedShow> show) {
   show_ = std::move(show);
   next_show_.reset();
   frame_ = sweep_of_frame_ = 0;
+  cued_frame_.reset();
 }
 
 void Player::change_show() {
@@ -83,9 +84,18 @@ Status Player::cue(const std::string& name) {
   if (cue == cues.end() || cue->frame < 0 || cue->frame >= show_->header.frames) {
     return Fault{"rig.refused", "cue \"" + name + "\"", "the show has no such cue", "choose one of its cues"};
   }
-  frame_ = cue->frame;
-  sweep_of_frame_ = 0;
+  cued_frame_ = cue->frame;
+  follow_cue();
   return {};
+}
+
+void Player::follow_cue() {
+  if (!cued_frame_) return;
+  FrameCache& frames = *show_->frames;
+  const bool there = frames.prepare(*cued_frame_);
+  if (!there && !settings_.wait_for_frames && running()) return;
+  frame_ = *std::exchange(cued_frame_, std::nullopt);
+  sweep_of_frame_ = 0;
 }
 
 Status Player::go() {
@@ -152,6 +162,7 @@ void Player::drive(const SweepPlan& plan, const AskedSweep& sweep) {
 
 AskedSweep Player::hand_over(double start_s) {
   change_show();
+  follow_cue();
   AskedSweep sweep;
   sweep.show = show_;
   sweep.start_s = start_s;

@@ -53,7 +53,7 @@ class Player {
 
   Status play(std::uint64_t sweeps = 0);  ///< then holds; 0: goes on
   Status hold();
-  Status cue(const std::string& name);
+  Status cue(const std::string& name);  ///< jumps as soon as the cue's frame is there
   Status go();
 
   /// Light off now; latched until `go`. Whatever was handed over for later is lost.
@@ -78,6 +78,7 @@ class Player {
 
  private:
   void change_show();
+  void follow_cue();
   void begin(std::shared_ptr<const LoadedShow> show);
   void advance();
   bool fetch(AskedSweep& sweep);
@@ -91,6 +92,7 @@ class Player {
   std::shared_ptr<const LoadedShow> next_show_;
   int frame_ = 0;
   int sweep_of_frame_ = 0;
+  std::optional<int> cued_frame_;
   int to_settle_ = 0;
   bool drive_is_new_ = true;
   std::uint64_t sweeps_ = 0;

@@ -67,10 +67,10 @@ grpc::Status RigService::Release(grpc::ServerContext*, const v1::ReleaseRequest*
 
 grpc::Status RigService::BeginPush(grpc::ServerContext*, const v1::BeginPushRequest* request, v1::PushProgress* reply) {
   if (Status mine = desk_.use(request->token()); !mine) return status_from(mine.fault());
-  std::vector<Sha256Digest> chunks(static_cast<std::size_t>(request->chunk_sha256_size()));
+  std::vector<Sha256Value> chunks(static_cast<std::size_t>(request->chunk_sha256_size()));
   for (int i = 0; i < request->chunk_sha256_size(); ++i) {
     const std::string& bytes = request->chunk_sha256(i);
-    Sha256Digest& digest = chunks[static_cast<std::size_t>(i)];
+    Sha256Value& digest = chunks[static_cast<std::size_t>(i)];
     if (bytes.size() != digest.size()) return refused("push", bad_digest(i));
     std::ranges::transform(bytes, digest.begin(), [](char c) { return static_cast<std::uint8_t>(c); });
   }

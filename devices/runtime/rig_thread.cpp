@@ -118,6 +118,7 @@ void RigThread::make_dark(const Fault& fault) {
 }
 
 Status RigThread::activate(std::shared_ptr<const LoadedShow> show) {
+  if (const auto first = show->frames->wait_for(0); !first) return first.fault();
   std::unique_lock lock(mutex_);
   player_.activate(show);
   changed_.notify_all();

@@ -32,7 +32,11 @@ std::uint64_t chunk_length(std::uint64_t chunk, std::uint64_t size_bytes) {
   return std::min<std::uint64_t>(push_chunk_bytes, size_bytes - chunk * push_chunk_bytes);
 }
 
-Sha256Digest digest_of(std::string_view data) { return sha256_of(std::as_bytes(std::span(data))); }
+/// Fit to name a file.
+bool is_sha256_hex(const std::string& text) {
+  return text.size() == 64 &&
+         std::ranges::all_of(text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
+}
 
 }  // namespace
 
@@ -71,7 +75,7 @@ std::uint64_t ShowStore::sound_bytes(const std::string& sha256, const Upload& up
   for (std::size_t chunk = 0; chunk < upload.chunk_sha256.size(); ++chunk) {
     const std::uint64_t length = chunk_length(chunk, upload.size_bytes);
     if (sound + length > file->size_bytes()) break;
-    if (digest_of(file->read(sound, length)) != upload.chunk_sha256[chunk]) break;
+    if (sha256_of(std::string_view(file->read(sound, length))) != upload.chunk_sha256[chunk]) break;
     sound += length;
   }
   return sound;
@@ -85,7 +89,7 @@ Status ShowStore::check_space(const std::string& sha256, const Upload& upload) c
 }
 
 Result<UploadProgress> ShowStore::begin(const std::string& sha256, std::uint64_t size_bytes,
-                                        std::vector<Sha256Digest> chunk_sha256) {
+                                        std::vector<Sha256Value> chunk_sha256) {
   if (!is_sha256_hex(sha256)) return bad_request("sha256", "it is not 64 lower-case hexadecimal digits");
   if (size_bytes == 0 || size_bytes > show_limit_bytes) return bad_request("size_bytes", "no show has this size");
   if (chunk_sha256.size() != chunks_of(size_bytes)) {
@@ -116,7 +120,7 @@ Result<UploadProgress> ShowStore::add(const std::string& sha256, std::uint64_t o
   const std::uint64_t chunk = offset_bytes / push_chunk_bytes;
   const std::string where = chunk_name(chunk, upload.chunk_sha256.size());
   if (data.size() != chunk_length(chunk, upload.size_bytes)) return bad_request(where, "it has another length");
-  if (digest_of(data) != upload.chunk_sha256[chunk]) {
+  if (sha256_of(data) != upload.chunk_sha256[chunk]) {
     return Fault{"rig.damaged", where, "its bytes are not those that were announced", "push the show again"};
   }
   Result<DiskSlot> file = DiskSlot::open(partial_path(sha256));
@@ -131,9 +135,9 @@ Status ShowStore::check_whole(const std::filesystem::path& path, const std::stri
   if (!file) return file.fault();
   Sha256 whole;
   for (std::uint64_t offset = 0; offset < file->size_bytes(); offset += push_chunk_bytes) {
-    whole.add(std::as_bytes(std::span<const char>(file->read(offset, push_chunk_bytes))));
+    whole.add(file->read(offset, push_chunk_bytes));
   }
-  if (hex(whole.finish()) != sha256) {
+  if (hex(whole.value()) != sha256) {
     return Fault{"rig.damaged", "show " + sha256, "the whole has another hash than was announced", "push it again"};
   }
   if (Status synced = file->sync(); !synced) return synced;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "io/protocol/sha256.h"
+#include "io/files/digest.h"
 
 namespace focalstage {
 
@@ -32,7 +32,7 @@ class ShowStore {
 
   /// Says where to go on. "rig.request", "rig.disk-full".
   Result<UploadProgress> begin(const std::string& sha256, std::uint64_t size_bytes,
-                               std::vector<Sha256Digest> chunk_sha256);
+                               std::vector<Sha256Value> chunk_sha256);
 
   /// Takes one chunk. "rig.damaged" names it; "rig.request", "rig.disk-full".
   Result<UploadProgress> add(const std::string& sha256, std::uint64_t offset_bytes, std::string_view data);
@@ -47,7 +47,7 @@ class ShowStore {
   struct Upload {
     std::uint64_t size_bytes = 0;
     std::uint64_t received_bytes = 0;
-    std::vector<Sha256Digest> chunk_sha256;
+    std::vector<Sha256Value> chunk_sha256;
   };
 
   ShowStore(std::filesystem::path folder, int lock) : folder_(std::move(folder)), lock_(lock) {}

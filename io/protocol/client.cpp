@@ -157,7 +157,7 @@ Status RigClient::push(const std::filesystem::path& show_path, bool activate,
   v1::BeginPushRequest begin;
   begin.set_sha256(show->sha256());
   begin.set_size_bytes(show->size_bytes());
-  for (const Sha256Digest& digest : show->chunk_sha256()) begin.add_chunk_sha256(digest.data(), digest.size());
+  for (const Sha256Value& digest : show->chunk_sha256()) begin.add_chunk_sha256(digest.data(), digest.size());
   const milliseconds patient = std::max(state_->deadline, milliseconds(60'000));
   const Result<v1::PushProgress> begun = state_->holding(&v1::Rig::Stub::BeginPush, begin, patient);
   if (!begun) return begun.fault();

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
-#include <span>
+#include <string_view>
 #include <system_error>
 
 #include "io/protocol/limits.h"
@@ -35,11 +35,10 @@ Result<ShowChunks> ShowChunks::open(const std::filesystem::path& path, const std
     if (stop.stop_requested()) return Fault{"rig.cancelled", path.string(), "the push was stopped", ""};
     const Result<std::string> data = show.read(chunk);
     if (!data) return data.fault();
-    const auto bytes = std::as_bytes(std::span(*data));
-    whole.add(bytes);
-    show.chunk_sha256_.push_back(sha256_of(bytes));
+    whole.add(*data);
+    show.chunk_sha256_.push_back(sha256_of(std::string_view(*data)));
   }
-  show.sha256_ = hex(whole.finish());
+  show.sha256_ = hex(whole.value());
   return show;
 }
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "io/protocol/sha256.h"
+#include "io/files/digest.h"
 
 namespace focalstage {
 
@@ -19,7 +19,7 @@ class ShowChunks {
 
   std::uint64_t size_bytes() const { return size_bytes_; }
   const std::string& sha256() const { return sha256_; }
-  const std::vector<Sha256Digest>& chunk_sha256() const { return chunk_sha256_; }
+  const std::vector<Sha256Value>& chunk_sha256() const { return chunk_sha256_; }
 
   /// The bytes of one chunk, as they are in the file now.
   Result<std::string> read(std::uint64_t chunk) const;
@@ -28,7 +28,7 @@ class ShowChunks {
   std::filesystem::path path_;
   std::uint64_t size_bytes_ = 0;
   std::string sha256_;
-  std::vector<Sha256Digest> chunk_sha256_;
+  std::vector<Sha256Value> chunk_sha256_;
 };
 
 }  // namespace focalstage

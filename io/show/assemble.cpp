@@ -1,13 +1,16 @@
 #include "io/show/assemble.h"
 
 #include <fcntl.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <optional>
 #include <vector>
 
 #include "io/show/chunks.h"
+#include "io/files/digest.h"
 #include "io/show/hdf5_out.h"
 #include "io/show/seal.h"
 #include "io/show/write_header.h"
@@ -39,14 +42,17 @@ void write_frame(Hdf5Out& out, std::size_t frame, const PackedFrame& packed, con
   }
 }
 
-/// Room for the whole file before HDF5 writes to it: its library does not survive a full disk gracefully. Where a file
-/// system cannot reserve, HDF5's own error must do.
+/// Room for the whole file before HDF5 writes to it: the library does not take a full disk well. Where a file system
+/// cannot reserve, what it says to be free must do.
 Status reserve(const std::filesystem::path& path, std::uint64_t bytes) {
   const DiskFile file = open_file(path, O_RDWR);
   if (!file.is_open()) return write_fault(path, errno);
   if (::fallocate(file.descriptor(), FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(bytes)) == 0) return {};
-  if (errno == EOPNOTSUPP || errno == ENOSYS || errno == EINVAL) return {};
-  return write_fault(path, errno);
+  if (errno != EOPNOTSUPP && errno != ENOSYS && errno != EINVAL) return write_fault(path, errno);
+  struct statvfs space {};
+  if (::fstatvfs(file.descriptor(), &space) == 0 && space.f_bavail < bytes / std::max(space.f_frsize, 1ul))
+    return write_fault(path, ENOSPC);
+  return {};
 }
 
 /// No less than what the assembled file takes: the log's bytes, an index entry per chunk, and the header's tables.

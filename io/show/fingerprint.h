@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/show/digest.h"
+#include "io/files/digest.h"
 #include "io/show/show.h"
 
 namespace focalstage {

@@ -31,7 +31,13 @@ herr_t gather(unsigned, const H5E_error2_t* entry, void* data) {
 
 }  // namespace
 
-Hdf5Session::Hdf5Session() : lock_(hdf5_mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+Hdf5Session::Hdf5Session() : lock_(hdf5_mutex()) {
+  // Every file of ours is closed by its owner. The library's own clean-up at exit would only meet files whose writing
+  // failed, and crash on them.
+  static const herr_t first = H5dont_atexit();
+  static_cast<void>(first);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 Hdf5Error last_hdf5_error() {
   Hdf5Error error;

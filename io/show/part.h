@@ -8,7 +8,7 @@
 #include "core/base/result.h"
 #include "core/compile/frame.h"
 #include "io/show/chunks.h"
-#include "io/show/digest.h"
+#include "io/files/digest.h"
 #include "io/show/disk.h"
 
 namespace focalstage {

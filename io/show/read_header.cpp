@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "io/show/digest.h"
+#include "io/files/digest.h"
 
 namespace focalstage {
 namespace {

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <vector>
 
-#include "io/show/digest.h"
+#include "io/files/digest.h"
 
 namespace focalstage {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "io/show/digest.h"
+#include "io/files/digest.h"
 
 namespace focalstage {
 namespace {

@@ -11,7 +11,7 @@
 #include <tuple>
 #include <vector>
 
-#include "io/show/digest.h"
+#include "io/files/digest.h"
 #include "io/show/show.h"
 
 // A show without a compiler: small, of every kind of content, and the same on every call.

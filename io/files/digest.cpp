@@ -1,4 +1,4 @@
-#include "io/show/digest.h"
+#include "io/files/digest.h"
 
 #include <openssl/evp.h>
 
