@@ -27,8 +27,10 @@ ExitStatus run(const Options& options) {
 
 Command::Run declare_export(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  app.add_option("SHOW", options->show, "the show (.h5)")->required();
-  app.add_option("-o,--output", options->folder, "the folder to write into; made if missing")->required();
+  app.add_option("SHOW", options->show, "the show (.h5)")->required()->type_name("");
+  app.add_option("-o,--output", options->folder, "the folder to write into; made if missing")
+      ->required()
+      ->type_name("DIR");
   return [options] { return run(*options); };
 }
 
