@@ -129,8 +129,10 @@ class ObjReader {
     cut_.clear();
     if (!cutter_.cut(places_, cut_)) return text_.invalid("its polygons are too large to be cut into triangles");
     for (const glm::uvec3& t : cut_) {
-      group.mesh.triangles.emplace_back(vertex(group, corners_[t.x]), vertex(group, corners_[t.y]),
-                                        vertex(group, corners_[t.z]));
+      const std::uint32_t a = vertex(group, corners_[t.x]);
+      const std::uint32_t b = vertex(group, corners_[t.y]);
+      const std::uint32_t c = vertex(group, corners_[t.z]);
+      group.mesh.triangles.emplace_back(a, b, c);
     }
     return {};
   }

@@ -91,6 +91,11 @@ bool PolygonCutter::cut_ears(std::span<const glm::dvec3> corners, const glm::dve
     }
     return true;
   };
+  const auto give_up = [&] {
+    ++crossed_;
+    add_fan(corners.size(), triangles);
+    return true;
+  };
   for (std::size_t at = 0, misses = 0; left.size() > 3;) {
     if (work_left_ < left.size()) return false;
     work_left_ -= left.size();
@@ -100,11 +105,10 @@ bool PolygonCutter::cut_ears(std::span<const glm::dvec3> corners, const glm::dve
       left.erase(left.begin() + static_cast<std::ptrdiff_t>(at));
       misses = 0;
     } else if (++at, ++misses == left.size()) {
-      ++crossed_;
-      add_fan(corners.size(), triangles);
-      return true;
+      return give_up();
     }
   }
+  if (side(flat[left[0]], flat[left[1]], flat[left[2]]) < 0.0) return give_up();
   ears.emplace_back(left[0], left[1], left[2]);
   triangles.insert(triangles.end(), ears.begin(), ears.end());
   return true;
