@@ -33,7 +33,7 @@ Command::Run pass_on(CLI::App& app, const std::string& name) {
   const auto arguments = std::make_shared<std::vector<std::string>>();
   app.set_help_flag();
   app.prefix_command();
-  return [&app, name] { return become(name, app.remaining_for_passthrough()); };
+  return [&app, name] { return become(name, app.remaining()); };
 }
 
 }  // namespace
