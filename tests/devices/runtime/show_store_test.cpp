@@ -59,7 +59,10 @@ TEST_CASE("a show arrives in chunks, is verified, and is then found by its hash"
   CHECK(begin(*store, show)->received_bytes == 0);
   REQUIRE(send(*store, show, 0, 1000));
   CHECK(store->find(show.sha256()).fault().code == "rig.refused");
-  REQUIRE(store->finish(show.sha256()));
+  const auto verified = store->finish(show.sha256());
+  REQUIRE(verified);
+  CHECK(verified->frames == 3);
+  CHECK(verified->images == 8);
   CHECK(bytes_of(*store->find(show.sha256())) == bytes_of(sample.path));
   CHECK(begin(*store, show)->complete);
   CHECK(std::filesystem::is_empty(sample.root / "partial"));
@@ -143,7 +146,7 @@ TEST_CASE("what is no show is refused at the end and not kept") {
     const ShowChunks bad = *ShowChunks::open(path, {});
     REQUIRE(begin(*store, bad));
     REQUIRE(send(*store, bad, 0, 1000));
-    const Status finished = store->finish(bad.sha256());
+    const auto finished = store->finish(bad.sha256());
     CHECK(finished.fault().code == "rig.damaged");
     CHECK_FALSE(store->find(bad.sha256()));
   }
