@@ -54,7 +54,9 @@ std::string bar_text(double share, int cells) {
 }
 
 Progress::Progress(std::string title, Style style)
-    : title_(std::move(title)), quiet_(style == Style::quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+    : title_(std::move(title)), quiet_(style == Style::quiet), terminal_(isatty(STDERR_FILENO) == 1) {
+  if (!terminal_) shown_ = started_;  // what is quickly done needs no lines
+}
 
 Progress::~Progress() { clear(); }
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "io/show/chunks.h"
-#include "io/files/digest.h"
 #include "io/show/hdf5_out.h"
 #include "io/show/seal.h"
 #include "io/show/write_header.h"

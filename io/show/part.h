@@ -7,8 +7,8 @@
 
 #include "core/base/result.h"
 #include "core/compile/frame.h"
-#include "io/show/chunks.h"
 #include "io/files/digest.h"
+#include "io/show/chunks.h"
 #include "io/show/disk.h"
 
 namespace focalstage {

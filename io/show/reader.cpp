@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "io/show/check_counts.h"
 #include "io/show/chunks.h"
 #include "io/show/hdf5_in.h"
 #include "io/show/read_header.h"
@@ -73,6 +74,7 @@ Result<ShowReader> ShowReader::open(const std::filesystem::path& path) {
     state->header = read_header(in);
     if (!in.ok()) return in.fault();
     if (Status valid = check_header(state->header, path.string()); !valid) return valid.fault();
+    if (Status valid = check_counts(state->header, path.string()); !valid) return valid.fault();
     state->measures = read_measures(in, state->header);
     state->grid = chunk_grid(state->header.width_px, state->header.height_px, state->header.channels);
     if (!state->header.images.empty() && !in.chunked_as(chunk_shape(state->grid)))

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "io/show/assemble.h"
+#include "io/show/check_counts.h"
 #include "io/show/chunks.h"
 #include "io/show/disk.h"
 #include "io/show/fingerprint.h"
@@ -64,6 +65,7 @@ Result<ShowWriter> ShowWriter::start(const std::filesystem::path& path, const Sh
                                      int threads) {
   const std::string where = path.string();
   if (Status valid = check_header(header, where); !valid) return valid.fault();
+  if (Status valid = check_counts(header, where); !valid) return valid.fault();
   if (Status right = check_asset_hashes(header, where); !right) return right.fault();
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) return write_fault(path, EISDIR);

@@ -80,10 +80,25 @@ inline Schedule schedule(const std::vector<ImageSpec>& images) {
   return out;
 }
 
+/// A project with so many surfaces and objects.
+inline std::string project_text(int surfaces, int objects) {
+  const auto things = [](const std::string& name, int count) {
+    std::string list;
+    for (int i = 0; i < count; ++i) {
+      list += (i > 0 ? ", " : "") + ("{ \"name\": \"" + name) + std::to_string(i) +
+              "\", \"mesh\": { \"primitive\": \"plane\", \"size_m\": [1, 1] } }";
+    }
+    return "[" + list + "]";
+  };
+  return "{ \"focalstage\": 1, \"name\": \"K\u00f6nig\",\n  \"projectors\": [{ \"name\": \"main\" }],\n"
+         "  \"slices\": { \"powers_d\": [-0.5, 0.5] },\n  \"surfaces\": " +
+         things("surface", surfaces) + ",\n  \"objects\": " + things("object", objects) + " }\n";
+}
+
 /// Two slices per eye and a light image; two objects, one surface, two cues, three assets of which two are the same.
 inline ShowHeader header(int frames, int width_px, int height_px, int channels) {
   ShowHeader out;
-  out.project_text = "{\n  \"focalstage\": 1,\n  \"name\": \"K\u00f6nig\"\n}\n";
+  out.project_text = project_text(1, 2);
   out.assets = {asset("assets/a.obj", "v 0 0 0\n"), asset("assets/b.bin", std::string("\0\x01\xff", 3)),
                 asset("assets/copy of a.obj", "v 0 0 0\n")};
   out.frames = frames;

@@ -84,6 +84,7 @@ TEST_CASE("a show of nothing but a screen: no objects, no cues, no assets, no sl
     poses.objects.clear();
     poses.surfaces.clear();
   }
+  header.project_text = sample::project_text(0, 0);
   SUBCASE("with images") {}
   SUBCASE("and without images") { header.images.clear(); }
   const fs::path path = folder / "empty.h5";
@@ -209,6 +210,9 @@ TEST_CASE("a header that no show can hold is refused before a file is touched") 
   SUBCASE("channels") { header.channels = 2, where = "/projector/0/images"; }
   SUBCASE("asset order") { std::swap(header.assets[0], header.assets[1]), where = "/asset/" + header.assets[1].sha256; }
   SUBCASE("asset bytes") { header.assets[0].bytes.pop_back(), where = "/asset/" + header.assets[0].sha256; }
+  SUBCASE("another project's surfaces") { header.project_text = sample::project_text(2, 2), where = "/pose/surfaces"; }
+  SUBCASE("another project's objects") { header.project_text = sample::project_text(1, 1), where = "/pose/objects"; }
+  SUBCASE("another project's slices") { header.images[1].slice = 2, where = "/projector/0/image/slice"; }
   SUBCASE("text") { header.project_text += '\0', where = "/project"; }
   const auto writer = ShowWriter::start(folder / "a.h5", header, false, 1);
   REQUIRE_FALSE(writer.ok());
