@@ -98,9 +98,6 @@ Status check_whole(const tinygltf::Model& gltf, const std::string& path) {
   if (!gltf.asset.minVersion.empty() && gltf.asset.minVersion != "2.0") {
     return unsupported_asset(path + ": /asset/minVersion", "only glTF 2.0 is read", "export it as glTF 2.0");
   }
-  if (!gltf.skins.empty()) {
-    return unsupported_asset(path + ": /skins", "skins are not read", "bake the animation into the nodes");
-  }
   for (std::size_t i = 0; i < gltf.meshes.size(); ++i) {
     if (!gltf.meshes[i].weights.empty()) {
       return unsupported_asset(path + ": /meshes/" + std::to_string(i) + "/weights", "morph targets are not read",

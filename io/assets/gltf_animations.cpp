@@ -41,7 +41,6 @@ class AnimationReader {
       std::set<std::pair<int, Target>> driven;
       for (std::size_t k = 0; k < from.channels.size(); ++k) {
         const std::string where = document_.at("animations", i) + "/channels/" + std::to_string(k);
-        if (from.channels[k].target_node < 0) continue;  // drives nothing (glTF 2.0, 3.11)
         Result<AnimationChannel> channel = read_channel(from, from.channels[k], where);
         if (!channel) return channel.fault();
         if (!driven.emplace(channel->node, channel->target).second) {
@@ -59,7 +58,7 @@ class AnimationReader {
     if (from.sampler < 0 || static_cast<std::size_t>(from.sampler) >= animation.samplers.size()) {
       return invalid_asset(where + "/sampler", "there is no such sampler");
     }
-    if (static_cast<std::size_t>(from.target_node) >= nodes_.node_of_gltf.size()) {
+    if (from.target_node < 0 || static_cast<std::size_t>(from.target_node) >= nodes_.node_of_gltf.size()) {
       return invalid_asset(where + "/target/node", "there is no such node");
     }
     const std::optional<Target> target = target_from(from.target_path);

@@ -84,6 +84,10 @@ class ShapeChecker {
              {"skins", Kind::objects},
              {"extensionsUsed", Kind::texts},
              {"extensionsRequired", Kind::texts}});
+    const Json* skins = find(root, "skins");
+    if (fault_.ok() && skins != nullptr && !skins->empty()) {
+      fault_ = unsupported_asset(path_ + ": /skins", "skins are not read", "bake the animation into the nodes");
+    }
     if (fault_.ok()) scene(root);
     if (fault_.ok()) geometry(root);
     if (fault_.ok()) materials(root);
@@ -176,8 +180,13 @@ class ShapeChecker {
                 {{"input", Kind::index, true}, {"output", Kind::index, true}, {"interpolation", Kind::text}});
            each(animation, at, "channels", {{"sampler", Kind::index, true}, {"target", Kind::object, true}},
                 [&](const Json& channel, const std::string& at_channel) {
-                  members(channel.at("target"), at_channel + "/target",
-                          {{"node", Kind::index}, {"path", Kind::text, true}});
+                  const std::string at_target = at_channel + "/target";
+                  const Json& target = channel.at("target");
+                  members(target, at_target, {{"node", Kind::index}, {"path", Kind::text, true}});
+                  if (fault_.ok() && !target.contains("node")) {
+                    fault_ = unsupported_asset(path_ + ": " + at_target, "a channel drives something else than a node",
+                                               "export node animations only");
+                  }
                 });
          });
   }

@@ -109,6 +109,7 @@ RigClient::~RigClient() {
 }
 
 Result<RigClient> RigClient::connect(const std::string& host_port, milliseconds deadline) {
+  silence_grpc();
   const std::shared_ptr<grpc::Channel> channel =
       grpc::CreateCustomChannel(host_port, grpc::InsecureChannelCredentials(), channel_arguments());
   if (!channel->WaitForConnected(std::chrono::system_clock::now() + deadline)) {

@@ -152,8 +152,8 @@ TEST_CASE("a shutter so late that it stays open into the other eye's light is se
   SimFaults faults;
   faults.shutter_late_s.left = 0.006;
   const RigState state = played(faults, 20);
-  // Closed at 6.83 + 6.1 = 12.93 ms: the right slots at +1, +0.4 and -0.1 D (from 10.86, 11.72 and 12.38 ms on) are also
-  // seen by the left eye, the one at -1 D (from 13.64 ms on) is not.
+  // Closed at 6.83 + 6.1 = 12.93 ms: the right slots at +1, +0.4 and -0.1 D (from 10.86, 11.72 and 12.38 ms on) are
+  // also seen by the left eye, the one at -1 D (from 13.64 ms on) is not.
   CHECK_FALSE(state.slots[4].other_shutter_closed);
   CHECK_FALSE(state.slots[5].other_shutter_closed);
   CHECK_FALSE(state.slots[6].other_shutter_closed);
@@ -190,7 +190,8 @@ TEST_CASE("a projector that leads by more than the dead window: triggers before 
     REQUIRE(rig.play(7));
     while (rig.state().state == "playing") std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  for (const SlotReport& slot : rig.state().slots) {
+  const RigState state = rig.state();
+  for (const SlotReport& slot : state.slots) {
     CHECK(slot.delivered);
     CHECK(slot.exposures == 21);
   }
