@@ -16,7 +16,7 @@ focalstage_room(io/files        USES core/base                     PRIVATE_LIBS 
 focalstage_room(io/json         USES core/scene                    PRIVATE_LIBS nlohmann_json::nlohmann_json)
 focalstage_room(io/image        USES io/files core/mesh            PRIVATE_LIBS PNG::PNG JPEG::JPEG)
 focalstage_room(io/project      USES io/json io/files core/scene   PRIVATE_LIBS ValiJSON::valijson nlohmann_json::nlohmann_json)
-focalstage_room(io/assets       USES io/image io/files core/scene core/mesh PRIVATE_LIBS TinyGLTF::TinyGLTF)
+focalstage_room(io/assets       USES io/image io/files core/scene core/mesh PRIVATE_LIBS TinyGLTF::TinyGLTF nlohmann_json::nlohmann_json)
 focalstage_room(io/show         USES io/project io/assets io/files core/schedule core/compile core/stage
                                 PRIVATE_LIBS hdf5::hdf5 deflate::deflate TBB::tbb)
 focalstage_room(io/export       USES io/show io/image io/files      PRIVATE_LIBS TBB::tbb)

@@ -13,17 +13,17 @@
 #include "core/compile/encode.h"
 #include "core/compile/slice_tile.h"
 #include "core/compile/surface_hits.h"
-#include "core/mesh/measure.h"
+#include "core/mesh/solid.h"
 
 namespace focalstage {
 namespace {
 
-/// Which meshes are closed, asked once per mesh that stays on stage.
-class ClosedMeshes {
+/// Which meshes are solid, asked once per mesh that stays on stage.
+class SolidMeshes {
  public:
   bool operator()(const std::shared_ptr<const Mesh>& mesh) {
     const auto [entry, fresh] = known_.try_emplace(mesh, false);
-    if (fresh) entry->second = is_closed(*mesh);
+    if (fresh) entry->second = is_solid(*mesh);
     return entry->second;
   }
   /// Forgets meshes that nobody else holds.
@@ -36,11 +36,11 @@ class ClosedMeshes {
 };
 
 template <class Thing>
-std::vector<ViewDrawable> drawables_of(const std::vector<Thing>& things, ClosedMeshes& closed) {
+std::vector<ViewDrawable> drawables_of(const std::vector<Thing>& things, SolidMeshes& solid) {
   std::vector<ViewDrawable> all;
   for (std::size_t i = 0; i < things.size(); ++i) {
     for (const Drawable& drawable : things[i].drawables) {
-      all.push_back({&drawable, closed(drawable.mesh), static_cast<std::uint32_t>(i)});
+      all.push_back({&drawable, solid(drawable.mesh), static_cast<std::uint32_t>(i)});
     }
   }
   return all;
@@ -219,8 +219,8 @@ struct Compiler::State {
   }
 
   CompiledFrame frame(const Stage& stage, std::stop_token stop, FrameImages recycled) {
-    const std::vector<ViewDrawable> surfaces = drawables_of(stage.surfaces, closed);
-    const std::vector<ViewDrawable> objects = drawables_of(stage.objects, closed);
+    const std::vector<ViewDrawable> surfaces = drawables_of(stage.surfaces, solid);
+    const std::vector<ViewDrawable> objects = drawables_of(stage.objects, solid);
     look_at_surfaces(stage, surfaces);
 
     CompiledFrame out;
@@ -244,7 +244,7 @@ struct Compiler::State {
     out.measure.surface_pixels = surface_measure.surface_pixels;
     out.measure.defocused_pixels = surface_measure.defocused_pixels;
     out.measure.worst_defocus_d = surface_measure.worst_defocus_d;
-    closed.tidy();
+    solid.tidy();
     return out;
   }
 
@@ -253,7 +253,7 @@ struct Compiler::State {
   const Kernel& kernel;
   SliceRule rule;
   Encoder encoder;
-  ClosedMeshes closed;
+  SolidMeshes solid;
 
   std::optional<ProjectorRays> rays;
   std::optional<ProjectorHits> met;

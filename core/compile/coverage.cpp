@@ -35,10 +35,14 @@ struct Sight {
                   std::max(bounds.max_x, box.max_x), std::max(bounds.max_y, box.max_y)};
       }
     }
+    // What reaches behind the viewer reaches to infinity here; nobody looks that far aside.
+    constexpr float widest = 4.0f;
+    bounds = {std::max(bounds.min_x, -widest), std::max(bounds.min_y, -widest), std::min(bounds.max_x, widest),
+              std::min(bounds.max_y, widest)};
     if (!empty()) sort_into_cells(cells, view, bounds, cells_across, cells_across, {}, 0.0);
   }
 
-  bool empty() const { return !(bounds.min_x <= bounds.max_x); }
+  bool empty() const { return !(bounds.min_x <= bounds.max_x && bounds.min_y <= bounds.max_y); }
 };
 
 /// 64 looks and what they met: depth along the axis (NaN: nothing) and the drawable.
@@ -102,6 +106,17 @@ Looks grid_looks(const Box& bounds, int grid, int tile_column, int tile_row) {
   return looks;
 }
 
+/// Whether some pixel's light leaves in this direction. Far off the axis a distortion can fold back into the image: a
+/// position counts only if its pixel leads back to it.
+bool lights(const ProjectorModel& projector, const glm::dvec2& tangent) {
+  const glm::dvec2 pixel = pixel_of_tangent(projector, tangent);
+  if (!(pixel.x >= 0.0 && pixel.x <= projector.width_px && pixel.y >= 0.0 && pixel.y <= projector.height_px))
+    return false;
+  if (projector.distortion.empty()) return true;
+  const glm::dvec2 back = tangent_of_pixel(projector, pixel);
+  return std::abs(back.x - tangent.x) < 1e-6 && std::abs(back.y - tangent.y) < 1e-6;
+}
+
 /// Which of the points on surfaces the projector's light reaches.
 std::vector<bool> reached(const Survey& survey, const Looks& looks, const Met& surface) {
   Looks towards;
@@ -114,11 +129,7 @@ std::vector<bool> reached(const Survey& survey, const Looks& looks, const Met& s
     depth_m[i] = -point.z;
     if (!(depth_m[i] > 0.0)) continue;
     const glm::dvec2 tangent{point.x / depth_m[i], point.y / depth_m[i]};
-    const glm::dvec2 pixel = pixel_of_tangent(survey.projector, tangent);
-    if (!(pixel.x >= 0.0 && pixel.x <= survey.projector.width_px && pixel.y >= 0.0 &&
-          pixel.y <= survey.projector.height_px)) {
-      continue;
-    }
+    if (!lights(survey.projector, tangent)) continue;
     towards.x[i] = tangent.x;
     towards.y[i] = tangent.y;
   }

@@ -44,7 +44,9 @@ void add(const SliceRun& run, const glm::dvec3& color, float weight, int i, Tile
 class Counter {
  public:
   Counter(const SliceRule& rule, std::vector<ObjectTally>& tallies)
-      : lowest_d_(static_cast<float>(rule.lowest_d())), highest_d_(static_cast<float>(rule.highest_d())), tallies_(tallies) {}
+      : lowest_d_(static_cast<float>(rule.lowest_d())),
+        highest_d_(static_cast<float>(rule.highest_d())),
+        tallies_(tallies) {}
   ~Counter() { put_back(); }
 
   void count(std::uint32_t owner, bool pinned, float wanted_d) {

@@ -69,15 +69,14 @@ bool is_closed(const Mesh& mesh) {
   std::vector<std::uint64_t> directed;
   directed.reserve(mesh.triangles.size() * 3);
   for (const glm::uvec3& t : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) {
-      directed.push_back(std::uint64_t{welded[t[i]]} << 32 | welded[t[(i + 1) % 3]]);
-    }
+    const std::uint32_t corner[3] = {welded[t.x], welded[t.y], welded[t.z]};
+    if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;  // bounds nothing
+    for (int i = 0; i < 3; ++i) directed.push_back(std::uint64_t{corner[i]} << 32 | corner[(i + 1) % 3]);
   }
   std::sort(directed.begin(), directed.end());
-  if (std::adjacent_find(directed.begin(), directed.end()) != directed.end()) return false;
+  if (directed.empty() || std::adjacent_find(directed.begin(), directed.end()) != directed.end()) return false;
   return std::all_of(directed.begin(), directed.end(), [&](std::uint64_t edge) {
-    return (edge >> 32) != (edge & 0xFFFFFFFFu) &&
-           std::binary_search(directed.begin(), directed.end(), edge << 32 | edge >> 32);
+    return std::binary_search(directed.begin(), directed.end(), edge << 32 | edge >> 32);
   });
 }
 

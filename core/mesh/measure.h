@@ -33,7 +33,7 @@ double mesh_area_m2(const Mesh& mesh);
 double enclosed_volume_m3(const Mesh& mesh);
 
 /// Whether every edge has exactly two triangles that run along it in opposite directions; corners at the same position
-/// count as one.
+/// count as one, and triangles without three corners do not count.
 bool is_closed(const Mesh& mesh);
 
 /// Indices in range, per-vertex lists of the right length, every number finite. Code "mesh.invalid".

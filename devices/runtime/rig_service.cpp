@@ -92,10 +92,14 @@ grpc::Status RigService::PushChunk(grpc::ServerContext*, const v1::PushChunkRequ
   return grpc::Status::OK;
 }
 
-grpc::Status RigService::FinishPush(grpc::ServerContext*, const v1::FinishPushRequest* request, v1::PushVerified*) {
+grpc::Status RigService::FinishPush(grpc::ServerContext*, const v1::FinishPushRequest* request,
+                                    v1::PushVerified* reply) {
   if (Status mine = desk_.use(request->token()); !mine) return status_from(mine.fault());
-  if (Status whole = store_.finish(request->sha256()); !whole) return refused("push", whole.fault());
-  (void)desk_.use(request->token());
+  const auto show = store_.finish(request->sha256());
+  if (!show) return refused("push", show.fault());
+  (void)desk_.use(request->token());  // reading it may have taken longer than the lease lasts
+  reply->set_frames(show->frames);
+  reply->set_images(show->images);
   spdlog::info("push of {} is whole and verified", request->sha256());
   return grpc::Status::OK;
 }

@@ -35,6 +35,20 @@ RigThread::~RigThread() {
   changed_.notify_all();
 }
 
+std::unique_lock<std::mutex> RigThread::take_turn() const {
+  ++waiting_;
+  std::unique_lock lock(mutex_);
+  --waiting_;
+  return lock;
+}
+
+void RigThread::let_others(std::unique_lock<std::mutex>& lock) const {
+  if (waiting_ == 0) return;
+  lock.unlock();
+  while (waiting_ > 0) std::this_thread::yield();
+  lock.lock();
+}
+
 double RigThread::now_s() const { return settings_.clock == RigClock::real_time ? monotonic_s() : next_start_s_; }
 
 /// In virtual time nothing moves while nothing plays.
@@ -67,6 +81,7 @@ void RigThread::run(const std::stop_token& stop) {
     settle_until(settings_.clock == RigClock::real_time ? monotonic_s() : next_start_s_ - 2.0 * period_s);
     if (settings_.clock == RigClock::virtual_time && !has_work()) settle_until(next_start_s_);
     changed_.notify_all();
+    let_others(lock);
   }
 }
 
@@ -119,23 +134,31 @@ void RigThread::make_dark(const Fault& fault) {
 
 Status RigThread::activate(std::shared_ptr<const LoadedShow> show) {
   if (const auto first = show->frames->wait_for(0); !first) return first.fault();
-  std::unique_lock lock(mutex_);
-  player_.activate(show);
-  changed_.notify_all();
-  const bool there = changed_.wait_for(lock, std::chrono::seconds(10), [&] { return player_.next_show() != show; });
-  if (there) return {};
-  return Fault{"rig.refused", "show", "its first frame could not be read in time", "look at the rig's log"};
+  {
+    const auto lock = take_turn();
+    player_.activate(show);
+    changed_.notify_all();
+  }
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+  while (std::chrono::steady_clock::now() < give_up) {
+    {
+      const auto lock = take_turn();
+      if (player_.next_show() != show) return {};
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return Fault{"rig.refused", "show", "it did not take the place of the one that plays", "look at the rig's log"};
 }
 
 Status RigThread::command(Status (Player::*what)()) {
-  const std::lock_guard lock(mutex_);
+  const auto lock = take_turn();
   Status done = (player_.*what)();
   changed_.notify_all();
   return done;
 }
 
 Status RigThread::play(std::uint64_t sweeps) {
-  const std::lock_guard lock(mutex_);
+  const auto lock = take_turn();
   Status done = player_.play(sweeps);
   changed_.notify_all();
   return done;
@@ -144,18 +167,18 @@ Status RigThread::play(std::uint64_t sweeps) {
 Status RigThread::hold() { return command(&Player::hold); }
 
 Status RigThread::cue(const std::string& name) {
-  const std::lock_guard lock(mutex_);
+  const auto lock = take_turn();
   return player_.cue(name);
 }
 
 Status RigThread::go() {
-  const std::lock_guard lock(mutex_);
+  const auto lock = take_turn();
   faulty_sweeps_s_.clear();
   return player_.go();
 }
 
 void RigThread::blackout() {
-  const std::lock_guard lock(mutex_);
+  const auto lock = take_turn();
   const double at_s = now_s();
   player_.blackout(at_s);
   ledger_.call_off_after(at_s);
@@ -164,7 +187,7 @@ void RigThread::blackout() {
 }
 
 RigState RigThread::state() const {
-  const std::lock_guard lock(mutex_);
+  const auto lock = take_turn();
   RigState state;
   state.state = name_of(player_.state());
   if (player_.show()) state.show_sha256 = player_.show()->sha256;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -49,6 +50,10 @@ class RigThread {
   RigState state() const;
 
  private:
+  /// The lock, for a caller from outside: in virtual time the rig's own thread would hardly ever let go of it.
+  std::unique_lock<std::mutex> take_turn() const;
+  void let_others(std::unique_lock<std::mutex>& lock) const;
+
   void run(const std::stop_token& stop);
   bool has_work() const;
   void hand_over_next();
@@ -61,6 +66,7 @@ class RigThread {
 
   RigThreadSettings settings_;
   mutable std::mutex mutex_;
+  mutable std::atomic<int> waiting_ = 0;
   mutable std::condition_variable_any changed_;
   SimRig sim_;
   LimitedRig limited_;

@@ -43,6 +43,7 @@ namespace {
 
 /// Builds a server that takes its port for itself: a second runtime on it is an error, not a sharer.
 std::unique_ptr<grpc::Server> build_server(const std::string& address, grpc::Service& service, int& port) {
+  silence_grpc();
   grpc::EnableDefaultHealthCheckService(true);
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;

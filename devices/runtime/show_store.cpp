@@ -130,7 +130,7 @@ Result<UploadProgress> ShowStore::add(const std::string& sha256, std::uint64_t o
   return UploadProgress{upload.received_bytes, false};
 }
 
-Status ShowStore::check_whole(const std::filesystem::path& path, const std::string& sha256) const {
+Result<VerifiedShow> ShowStore::check_whole(const std::filesystem::path& path, const std::string& sha256) const {
   Result<DiskSlot> file = DiskSlot::open(path);
   if (!file) return file.fault();
   Sha256 whole;
@@ -140,13 +140,13 @@ Status ShowStore::check_whole(const std::filesystem::path& path, const std::stri
   if (hex(whole.value()) != sha256) {
     return Fault{"rig.damaged", "show " + sha256, "the whole has another hash than was announced", "push it again"};
   }
-  if (Status synced = file->sync(); !synced) return synced;
+  if (Status synced = file->sync(); !synced) return synced.fault();
   const Result<ShowReader> show = ShowReader::open(path);
-  if (show) return {};
+  if (show) return VerifiedShow{show->header().frames, static_cast<int>(show->header().images.size())};
   return Fault{"rig.damaged", show.fault().where, show.fault().message, show.fault().remedy};
 }
 
-Status ShowStore::finish(const std::string& sha256) {
+Result<VerifiedShow> ShowStore::finish(const std::string& sha256) {
   const std::lock_guard lock(mutex_);
   const auto found = uploads_.find(sha256);
   if (found == uploads_.end()) return bad_request("sha256", "no push of this show was begun");
@@ -157,13 +157,15 @@ Status ShowStore::finish(const std::string& sha256) {
   const std::filesystem::path partial = partial_path(sha256);
   uploads_.erase(found);
   std::error_code error;
-  if (Status whole = check_whole(partial, sha256); !whole) {
+  const Result<VerifiedShow> whole = check_whole(partial, sha256);
+  if (!whole) {
     if (whole.fault().code == "rig.damaged") std::filesystem::remove(partial, error);
     return whole;
   }
   std::filesystem::rename(partial, show_path(sha256), error);
   if (error) return disk_fault(show_path(sha256), error.value());
-  return sync_folder(folder_ / "shows");
+  if (Status synced = sync_folder(folder_ / "shows"); !synced) return synced.fault();
+  return whole;
 }
 
 Result<std::filesystem::path> ShowStore::find(const std::string& sha256) const {

@@ -19,6 +19,11 @@ struct UploadProgress {
   bool complete = false;
 };
 
+struct VerifiedShow {
+  int frames = 0;
+  int images = 0;  ///< of each frame
+};
+
 /// The shows that were pushed, by the hash of their bytes, and those on their way.
 ///
 ///     DIR/lock                 held by the runtime that uses the folder
@@ -38,7 +43,7 @@ class ShowStore {
   Result<UploadProgress> add(const std::string& sha256, std::uint64_t offset_bytes, std::string_view data);
 
   /// Checks the whole and gives it its name. "rig.damaged", "rig.request". What can't be a show is removed.
-  Status finish(const std::string& sha256);
+  Result<VerifiedShow> finish(const std::string& sha256);
 
   /// The file of a verified show; "rig.refused" where it is not here.
   Result<std::filesystem::path> find(const std::string& sha256) const;
@@ -54,7 +59,7 @@ class ShowStore {
   std::filesystem::path partial_path(const std::string& sha256) const;
   std::filesystem::path show_path(const std::string& sha256) const;
   std::uint64_t sound_bytes(const std::string& sha256, const Upload& upload) const;
-  Status check_whole(const std::filesystem::path& path, const std::string& sha256) const;
+  Result<VerifiedShow> check_whole(const std::filesystem::path& path, const std::string& sha256) const;
   Status check_space(const std::string& sha256, const Upload& upload) const;
 
   std::filesystem::path folder_;

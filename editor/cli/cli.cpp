@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cctype>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -38,7 +39,9 @@ ExitStatus wrong_usage(const std::string& command, std::string message) {
 }
 
 ExitStatus run_command(const Command& command, std::vector<std::string> arguments) {
-  CLI::App app{std::string(command.help)};
+  std::string description = command.help;
+  description.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(description.front())));
+  CLI::App app{description + "."};
   app.name(std::string("focalstage ") + command.name);
   app.get_formatter()->column_width(34);
   const Command::Run run = command.declare(app);

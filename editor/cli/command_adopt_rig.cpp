@@ -36,8 +36,8 @@ ExitStatus run(const Options& options) {
 
 Command::Run declare_adopt_rig(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  app.add_option("PROJECT", options->project, "a NAME.focal, or the folder that holds it")->required();
-  app.add_option("-o,--output", options->output, "where to save; the project itself by default");
+  app.add_option("PROJECT", options->project, "a NAME.focal, or the folder that holds it")->required()->type_name("");
+  app.add_option("-o,--output", options->output, "where to save; the project itself by default")->type_name("OUT");
   app.add_flag("--dry-run", options->dry_run, "print the edits (as focalstage apply reads them) and save nothing");
   add_rig_option(app, options->rig);
   return [options] { return run(*options); };

@@ -29,9 +29,9 @@ ExitStatus run(const Options& options) {
 
 Command::Run declare_apply(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  app.add_option("PROJECT", options->project, "a NAME.focal, or the folder that holds it")->required();
-  app.add_option("EDITS", options->edits, "the edits: one JSON object per line")->required();
-  app.add_option("-o,--output", options->output, "where to save; the project itself by default");
+  app.add_option("PROJECT", options->project, "a NAME.focal, or the folder that holds it")->required()->type_name("");
+  app.add_option("EDITS", options->edits, "the edits: one JSON object per line")->required()->type_name("");
+  app.add_option("-o,--output", options->output, "where to save; the project itself by default")->type_name("OUT");
   return [options] { return run(*options); };
 }
 

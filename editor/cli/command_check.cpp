@@ -46,7 +46,9 @@ ExitStatus run(const Options& options) {
 
 Command::Run declare_check(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  app.add_option("FILE", options->file, "a project (NAME.focal or its folder) or a show (.h5)")->required();
+  app.add_option("FILE", options->file, "a project (NAME.focal or its folder) or a show (.h5)")
+      ->required()
+      ->type_name("");
   app.add_flag("--json", options->json, "print the findings as one JSON object");
   return [options] { return run(*options); };
 }

@@ -91,12 +91,15 @@ ExitStatus run(const Options& options) {
 
 Command::Run declare_compile(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  app.add_option("PROJECT", options->project, "a NAME.focal, or the folder that holds it")->required();
-  app.add_option("-o,--output", options->show, "the show to write, such as show.h5")->required();
-  app.add_option("--frames", options->frames, "frames A to B-1 alone, written A:B");
-  app.add_option("--threads", options->threads, "how many threads to use; all by default")->check(CLI::Range(1, 1024));
+  app.add_option("PROJECT", options->project, "a NAME.focal, or the folder that holds it")->required()->type_name("");
+  app.add_option("-o,--output", options->show, "the show to write, such as show.h5")->required()->type_name("SHOW");
+  app.add_option("--frames", options->frames, "frames A to B-1 alone")->type_name("A:B");
+  app.add_option("--threads", options->threads, "how many threads to use; all by default")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024).name(""));
   app.add_option("--vectors", options->vectors, "best or portable instructions; the bytes are the same")
-      ->check(CLI::IsMember({"best", "portable"}));
+      ->type_name("WHICH")
+      ->check(CLI::IsMember({"best", "portable"}).name(""));
   app.add_flag("--resume", options->resume, "go on where an interrupted compile of the same show stopped");
   app.add_flag("--reference", options->reference, "compile by one ray per sample: slow, to compare with");
   app.add_flag("--json", options->json, "print findings and counts as one JSON object");

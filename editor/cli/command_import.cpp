@@ -39,7 +39,9 @@ ExitStatus run(const Options& options) {
 
 Command::Run declare_import(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  app.add_option("FILE", options->file, "a mesh (.obj .ply .stl .off) or glTF file (.gltf .glb)")->required();
+  app.add_option("FILE", options->file, "a mesh (.obj .ply .stl .off) or glTF file (.gltf .glb)")
+      ->required()
+      ->type_name("");
   app.add_flag("--json", options->json, "print the counts and findings as one JSON object");
   return [options] { return run(*options); };
 }

@@ -1,7 +1,7 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <memory>
+#include <string>
 #include <system_error>
 #include <vector>
 
@@ -30,10 +30,9 @@ ExitStatus become(const std::string& name, const std::vector<std::string>& argum
 }
 
 Command::Run pass_on(CLI::App& app, const std::string& name) {
-  const auto arguments = std::make_shared<std::vector<std::string>>();
   app.set_help_flag();
   app.prefix_command();
-  return [&app, name] { return become(name, app.remaining_for_passthrough()); };
+  return [&app, name] { return become(name, app.remaining()); };
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ ExitStatus run(const Options& options) {
 
 Command::Run declare_push(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  app.add_option("SHOW", options->show, "the show (.h5)")->required();
+  app.add_option("SHOW", options->show, "the show (.h5)")->required()->type_name("");
   add_rig_option(app, options->rig);
   app.add_flag("--activate", options->activate, "make it the rig's show at the next sweep");
   return [options] { return run(*options); };

@@ -67,10 +67,10 @@ Command::Run declare_rig(CLI::App& app) {
       ->required()
       ->type_name("")
       ->check(CLI::IsMember({"state", "play", "hold", "blackout", "go", "cue", "watch"}).name(""));
-  app.add_option("NAME", options->cue, "the cue to jump to");
+  app.add_option("NAME", options->cue, "the cue to jump to")->type_name("");
   add_rig_option(app, options->rig);
-  app.add_option("--sweeps", options->sweeps, "play: this many, then hold; on and on by default");
-  app.add_option("--seconds", options->seconds, "watch: this long; until Ctrl-C by default");
+  app.add_option("--sweeps", options->sweeps, "play: this many, then hold; on and on by default")->type_name("N");
+  app.add_option("--seconds", options->seconds, "watch: this long; until Ctrl-C by default")->type_name("S");
   app.add_flag("--json", options->json, "print the state as one JSON object");
   return [options] { return run(*options); };
 }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "editor/cli/one_line.h"
 #include "io/json/json.h"
 
 namespace focalstage {
@@ -31,17 +32,16 @@ std::string amount_text(const Amount& amount) {
 }  // namespace
 
 ExitStatus status_of(const Fault& fault) {
-  static constexpr std::array<std::string_view, 6> environment{
-      "rig.", "file.unwritable", "show.disk-full", "show.unwritable", "program.", "display."};
+  static constexpr std::array<std::string_view, 8> environment{
+      "rig.",      "file.unwritable", "show.disk-full", "show.unwritable",
+      "show.busy", "export.folder",   "program.",       "display."};
   const bool outside = std::any_of(environment.begin(), environment.end(),
                                    [&](std::string_view code) { return fault.code.starts_with(code); });
   return outside ? ExitStatus::environment : ExitStatus::invalid;
 }
 
 ExitStatus report(const Fault& fault) {
-  std::string line = describe(fault);
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  std::fprintf(stderr, "focalstage: %s\n", line.c_str());
+  std::fprintf(stderr, "focalstage: %s\n", one_line(describe(fault)).c_str());
   return status_of(fault);
 }
 

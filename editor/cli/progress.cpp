@@ -54,14 +54,17 @@ std::string bar_text(double share, int cells) {
 }
 
 Progress::Progress(std::string title, Style style)
-    : title_(std::move(title)), quiet_(style == Style::quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+    : title_(std::move(title)), quiet_(style == Style::quiet), terminal_(isatty(STDERR_FILENO) == 1) {
+  if (!terminal_) shown_ = started_;  // what is quickly done needs no lines
+}
 
 Progress::~Progress() { clear(); }
 
 void Progress::update(double done, double of, const std::string& unit) {
-  if (quiet_ || of <= 0.0) return;
+  if (quiet_ || ended_ || of <= 0.0) return;
   const auto now = Clock::now();
-  const bool last = done >= of;
+  ended_ = done >= of;
+  const bool last = ended_;
   const auto interval = terminal_ ? bar_interval : line_interval;
   if (!last && now - shown_ < interval) return;
   shown_ = now;

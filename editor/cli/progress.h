@@ -32,6 +32,7 @@ class Progress {
   bool quiet_ = false;
   bool terminal_ = false;
   bool drawn_ = false;
+  bool ended_ = false;
   Clock::time_point started_ = Clock::now();
   Clock::time_point shown_{};
 };

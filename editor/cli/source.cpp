@@ -28,13 +28,13 @@ Result<Source> project_in(const ShowReader& show, const std::string& name) {
 }
 
 bool is_show(const std::filesystem::path& path) {
-  static constexpr std::string_view signature("\x89HDF\r\n\x1a\n", 8);
+  static constexpr std::string_view first_words = "focalstage-show";
+  std::array<char, first_words.size()> start{};
   std::error_code problem;
-  if (!std::filesystem::is_regular_file(path, problem)) return path.extension() == ".h5";
-  std::array<char, signature.size()> start{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(start.data(), start.size());
-  return path.extension() == ".h5" || std::string_view(start.data(), start.size()) == signature;
+  if (std::filesystem::is_regular_file(path, problem)) {
+    std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+  }
+  return path.extension() == ".h5" || std::string_view(start.data(), start.size()) == first_words;
 }
 
 }  // namespace focalstage

@@ -26,7 +26,7 @@ Result<Source> open_project(const std::filesystem::path& project);
 /// The project inside a show; nothing beside the show is read. `name` is the show's, for faults.
 Result<Source> project_in(const ShowReader& show, const std::string& name);
 
-/// Whether the file says it is a show (HDF5), by its first bytes or its name.
+/// Whether the file says it is a show, by its first words or its name.
 bool is_show(const std::filesystem::path& path);
 
 }  // namespace focalstage

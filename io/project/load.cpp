@@ -56,10 +56,10 @@ Result<LoadedProject> parse_project(std::string_view text, const std::string& so
   if (!value) return value.fault();
   LoadedProject loaded;
   auto project = project_from(*value, &loaded.notes);
-  // The schema is what the world was promised; where it refuses a file, our own reader usually says more plainly why.
-  const auto refused = schema_fault(*value, project_schema());
   if (!project) return in_file(project.fault(), source);
-  if (refused) return in_file(*refused, source);
+  // The schema is what the world was promised: what it refuses is no project, whatever our own reader makes of it. It
+  // comes second because the reader says more plainly what is wrong.
+  if (const auto refused = schema_fault(*value, project_schema())) return in_file(*refused, source);
   loaded.project = std::move(*project);
   loaded.text = text;
   return loaded;

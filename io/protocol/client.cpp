@@ -46,6 +46,7 @@ struct RigClient::State {
   milliseconds deadline;
   std::unique_ptr<v1::Rig::Stub> stub;
   std::string token;
+  std::stop_token stop;  ///< of the push in progress: a stop request ends the call it is in
 
   /// One call with a deadline.
   template <class Reply, class Request>
@@ -53,6 +54,7 @@ struct RigClient::State {
                      const Request& request, milliseconds at_most) {
     grpc::ClientContext context;
     context.set_deadline(std::chrono::system_clock::now() + at_most);
+    const std::stop_callback on_stop(stop, [&] { context.TryCancel(); });
     Reply reply;
     const grpc::Status status = (stub.get()->*method)(&context, request, &reply);
     if (!status.ok()) return fault_from(status, address);
@@ -91,8 +93,8 @@ struct RigClient::State {
     return {};
   }
 
-  Status send_chunks(const ShowChunks& show, std::uint64_t received, const std::function<void(double)>& progress,
-                     const std::stop_token& stop);
+  Status push(const std::filesystem::path& path, bool activate, const std::function<void(double)>& progress);
+  Status send_chunks(const ShowChunks& show, std::uint64_t received, const std::function<void(double)>& progress);
 };
 
 RigClient::RigClient(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -107,6 +109,7 @@ RigClient::~RigClient() {
 }
 
 Result<RigClient> RigClient::connect(const std::string& host_port, milliseconds deadline) {
+  silence_grpc();
   const std::shared_ptr<grpc::Channel> channel =
       grpc::CreateCustomChannel(host_port, grpc::InsecureChannelCredentials(), channel_arguments());
   if (!channel->WaitForConnected(std::chrono::system_clock::now() + deadline)) {
@@ -129,7 +132,7 @@ Result<RigDescription> RigClient::describe(double frequency_hz) {
 }
 
 Status RigClient::State::send_chunks(const ShowChunks& show, std::uint64_t received,
-                                     const std::function<void(double)>& progress, const std::stop_token& stop) {
+                                     const std::function<void(double)>& progress) {
   while (received < show.size_bytes()) {
     if (stop.stop_requested()) return cancelled(address);
     Result<std::string> data = show.read(received / push_chunk_bytes);
@@ -150,31 +153,42 @@ Status RigClient::State::send_chunks(const ShowChunks& show, std::uint64_t recei
   return {};
 }
 
-Status RigClient::push(const std::filesystem::path& show_path, bool activate,
-                       const std::function<void(double share)>& progress, std::stop_token stop) {
-  const Result<ShowChunks> show = ShowChunks::open(show_path, stop);
-  if (!show) return show.fault().code == "rig.cancelled" ? cancelled(state_->address) : show.fault();
+Status RigClient::State::push(const std::filesystem::path& path, bool activate,
+                              const std::function<void(double)>& progress) {
+  const Result<ShowChunks> show = ShowChunks::open(path, stop);
+  if (!show) return show.fault();
   v1::BeginPushRequest begin;
   begin.set_sha256(show->sha256());
   begin.set_size_bytes(show->size_bytes());
   for (const Sha256Value& digest : show->chunk_sha256()) begin.add_chunk_sha256(digest.data(), digest.size());
-  const milliseconds patient = std::max(state_->deadline, milliseconds(60'000));
-  const Result<v1::PushProgress> begun = state_->holding(&v1::Rig::Stub::BeginPush, begin, patient);
+  // Before the first chunk and after the last the rig reads what it has: 20 MB a second are slow.
+  const milliseconds patient = std::max(deadline, milliseconds(60'000 + show->size_bytes() / 20'000));
+  const Result<v1::PushProgress> begun = holding(&v1::Rig::Stub::BeginPush, begin, patient);
   if (!begun) return begun.fault();
   if (!begun->complete()) {
-    if (Status sent = state_->send_chunks(*show, begun->received_bytes(), progress, stop); !sent) return sent;
+    if (Status sent = send_chunks(*show, begun->received_bytes(), progress); !sent) return sent;
     v1::FinishPushRequest finish;
     finish.set_sha256(show->sha256());
-    // The rig now reads every frame; a slow disk and deflate manage 20 MB of file a second.
-    const milliseconds reading(show->size_bytes() / 20'000);
-    const auto verified = state_->holding(&v1::Rig::Stub::FinishPush, finish, patient + reading);
+    const auto verified = holding(&v1::Rig::Stub::FinishPush, finish, patient);
     if (!verified) return verified.fault();
   }
   if (progress) progress(1.0);
   if (!activate) return {};
   v1::ActivateRequest request;
   request.set_sha256(show->sha256());
-  return state_->command(&v1::Rig::Stub::Activate, request);
+  const auto active = holding(&v1::Rig::Stub::Activate, request, patient);
+  if (!active) return active.fault();
+  return {};
+}
+
+Status RigClient::push(const std::filesystem::path& show, bool activate,
+                       const std::function<void(double share)>& progress, std::stop_token stop) {
+  state_->stop = std::move(stop);
+  Status pushed = state_->push(show, activate, progress);
+  const bool stopped = state_->stop.stop_requested();
+  state_->stop = {};
+  if (!pushed && (stopped || pushed.fault().code == "rig.cancelled")) return cancelled(state_->address);
+  return pushed;
 }
 
 Status RigClient::play(std::uint64_t sweeps) {

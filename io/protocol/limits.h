@@ -18,4 +18,7 @@ constexpr std::uint64_t chunks_of(std::uint64_t size_bytes) {
   return (size_bytes + push_chunk_bytes - 1) / push_chunk_bytes;
 }
 
+/// gRPC writes to stderr what its callers hear anyway: keeps it silent.
+void silence_grpc();
+
 }  // namespace focalstage

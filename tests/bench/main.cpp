@@ -13,6 +13,7 @@
 
 #include "core/compile/compile.h"
 #include "tests/bench/gl_context.h"
+#include "tests/bench/long_show.h"
 #include "tests/bench/rays.h"
 #include "tests/bench/scenes.h"
 #include "tests/bench/two_pass.h"
@@ -140,22 +141,39 @@ Status run(int rounds, const std::string& only) {
   return {};
 }
 
+Status run_long_show(int frames) {
+  const Result<LongShow> show = compile_long_show(frames);
+  if (!show) return show.fault();
+  std::printf("%d frames of 2 eyes x 3 slices x 1024 x 768 into a show\n", show->frames);
+  std::printf("  one frame alone    %9.1f ms, %.1f ms on all threads\n", show->frame_ms, show->frame_cpu_ms);
+  std::printf("  the show           %9.1f s, %.2f x its frames alone; %.1f s on all threads, %.2f x\n", show->show_s,
+              show->slower(), show->show_cpu_s, show->show_cpu_s * 1e3 / (show->frame_cpu_ms * show->frames));
+  std::printf("  memory at most     %9.0f MiB\n", show->most_memory_mib);
+  std::printf("  size of the show   %9.1f MiB\n", show->show_mib);
+  return {};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   int rounds = 9;
+  int show_frames = 0;
   std::string only;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--rounds") == 0 && i + 1 < argc) {
       rounds = std::max(1, std::atoi(argv[++i]));
     } else if (std::strcmp(argv[i], "--scene") == 0 && i + 1 < argc) {
       only = argv[++i];
+    } else if (std::strcmp(argv[i], "--show") == 0 && i + 1 < argc) {
+      show_frames = std::max(1, std::atoi(argv[++i]));
     } else {
-      std::fprintf(stderr, "usage: focalstage-bench [--rounds N] [--scene bunnies|teapot|plane|bumpy]\n");
+      std::fprintf(stderr,
+                   "usage: focalstage-bench [--rounds N] [--scene bunnies|teapot|plane|bumpy]\n"
+                   "       focalstage-bench --show FRAMES\n");
       return 2;
     }
   }
-  const Status done = run(rounds, only);
+  const Status done = show_frames > 0 ? run_long_show(show_frames) : run(rounds, only);
   if (done) return 0;
   std::fprintf(stderr, "%s\n", describe(done.fault()).c_str());
   return 4;

@@ -15,6 +15,7 @@ import time
 from harness import DONE, ENVIRONMENT, FOCALSTAGE, expect, focalstage, folder, main, small_project, succeed, write_project
 
 KILLS = 100
+FRAMES = 160
 
 
 def compile_command(project, show, *options):
@@ -27,7 +28,7 @@ def test_kill_and_resume():
     dice = random.Random(seed)
     kills = resumed = rounds = 0
     with folder() as at:
-        write_project(at / "small", small_project(frames=240))
+        write_project(at / "small", small_project(frames=FRAMES))
         started = time.monotonic()
         succeed("compile", at / "small", "-o", at / "whole.h5", "--threads", "1")
         whole_s = time.monotonic() - started
@@ -58,7 +59,7 @@ def test_kill_and_resume():
         assert show.read_bytes() == whole, f"seed {seed}: other bytes after the last kill"
         left = sorted(p.name for p in at.iterdir())
         assert left == ["killed.h5", "small", "whole.h5"], f"seed {seed}: left behind: {left}"
-    return f"seed {seed}, {kills} kills, {rounds} finished in between, {resumed} of 240 frames taken over by the last"
+    return f"seed {seed}, {kills} kills, {rounds} finished in between, {resumed} of {FRAMES} frames taken over by the last"
 
 
 def test_resume_what_is_none():
@@ -164,11 +165,10 @@ def test_disk_full():
             project.write_bytes((at / "small/small.focal").read_bytes())
             before = project.read_bytes()
             filler = disk / "filler"
-            with open(filler, "wb") as out:
+            with open(filler, "wb", buffering=0) as out:
                 try:
                     while True:
                         out.write(b"x" * 4096)
-                        out.flush()
                 except OSError:
                     pass
             edits = at / "e.jsonl"

@@ -28,13 +28,15 @@ Stage room(const Drawable& surface, const Drawable& object) {
 
 ProjectorModel wide_projector() { return {1000, 1000, {500, 500}, {500, 500}, {}, {}}; }
 
-double share(std::uint64_t part, const ObjectCoverage& of) { return static_cast<double>(part) / static_cast<double>(of.looks); }
+double share(std::uint64_t part, const ObjectCoverage& of) {
+  return static_cast<double>(part) / static_cast<double>(of.looks);
+}
 
 }  // namespace
 
 TEST_CASE("an object well within everything misses nothing") {
-  const auto coverage = measure_coverage(room(plane(4, 4, {0, 0, -1}), plane(0.2, 0.2, {0, 0, -0.8})), wide_projector(),
-                                         0.015, 0.016);
+  const auto coverage =
+      measure_coverage(room(plane(4, 4, {0, 0, -1}), plane(0.2, 0.2, {0, 0, -0.8})), wide_projector(), 0.015, 0.016);
   REQUIRE(coverage.size() == 1);
   CHECK(coverage[0].index == 3);
   CHECK(coverage[0].looks > 10000);
@@ -44,7 +46,8 @@ TEST_CASE("an object well within everything misses nothing") {
 }
 
 TEST_CASE("half of an object beyond the surface's edge is off the surface") {
-  // The eyes stand at x = -+0.0315; at 1 m the object's plane coincides with the surface's, so parallax does not matter.
+  // The eyes stand at x = -+0.0315; at 1 m the object's plane coincides with the surface's, so parallax does not
+  // matter.
   const auto coverage = measure_coverage(room(plane(0.5, 2, {-0.25, 0, -1.0001}), plane(0.2, 0.2, {0, 0, -1})),
                                          wide_projector(), 0.015, 0.016);
   CHECK(share(coverage[0].off_surface, coverage[0]) == doctest::Approx(0.5).epsilon(0.02));
@@ -73,4 +76,23 @@ TEST_CASE("a 16 mm lens 15 mm before the pupil shows 28 degrees") {
   cyclops.interpupillary_m = 1e-6;
   const auto coverage = measure_coverage(cyclops, wide_projector(), 0.015, 0.016);
   CHECK(share(coverage[0].outside_lens, coverage[0]) == doctest::Approx(0.5).epsilon(0.02));
+}
+
+TEST_CASE("an object around the viewer and a folded distortion are survived") {
+  const auto around =
+      measure_coverage(room(plane(4, 4, {0, 0, -1}),
+                            [] {
+                              Drawable floor = plane(4, 4, {0, -0.1, 0});
+                              floor.world_from_mesh[1] = {0, 0, 1, 0};  // lies flat, reaching behind the viewer
+                              floor.world_from_mesh[2] = {0, -1, 0, 0};
+                              return floor;
+                            }()),
+                       wide_projector(), 0.015, 0.016);
+  CHECK(around[0].looks > 0);
+  ProjectorModel folded = wide_projector();
+  folded.focal_px = {2000, 2000};
+  folded.distortion = {-0.5, 0.0, 0.0, 0.0};  // r (1 - 0.5 r^2) comes back to the centre at r = 1.41
+  const auto aside =
+      measure_coverage(room(plane(9, 9, {0, 0, -1.0001}), plane(0.1, 0.1, {1.4, 0, -1})), folded, 0.015, 0.016);
+  CHECK(aside[0].outside_projector == aside[0].looks);
 }

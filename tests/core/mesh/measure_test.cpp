@@ -47,6 +47,10 @@ TEST_CASE("closed means that every edge is shared by two triangles that run it b
   box.triangles.pop_back();
   CHECK_FALSE(is_closed(box));
   CHECK_FALSE(is_closed(make_plane({1, 1})));
+  CHECK_FALSE(is_closed(Mesh{}));
+  Mesh needled = make_box({1, 1, 1});
+  needled.triangles.emplace_back(0, 1, 1);  // without area: it opens nothing
+  CHECK(is_closed(needled));
 }
 
 TEST_CASE("bounds are those of what triangles use; 0 and -0 weld") {
