@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include <glm/mat4x4.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
@@ -19,9 +19,9 @@ namespace focalstage {
 /// What a mesh is made of, as far as the picture needs it.
 struct Material {
   std::string name;
-  glm::dvec3 base_color{1.0};      ///< linear RGB; multiplies the texture
+  glm::dvec3 base_color{1.0};              ///< linear RGB; multiplies the texture
   std::shared_ptr<const Texture> texture;  ///< none: base_color alone
-  bool unlit = false;              ///< KHR_materials_unlit: lights do not act on it
+  bool unlit = false;                      ///< KHR_materials_unlit: lights do not act on it
 
   bool operator==(const Material&) const = default;
 };

@@ -7,8 +7,7 @@
 
 namespace focalstage {
 
-// The primitives of the project file (design section 4). All carry normals, all but the rabbit UVs. Sizes must be
-// positive and finite.
+// The primitives of the project file (design section 4). All carry normals and UVs; sizes must be positive and finite.
 
 /// In local XY around the origin, facing +Z; u along +X and v along +Y from the lower left corner.
 Mesh make_plane(const glm::dvec2& size_m);
@@ -31,7 +30,8 @@ Mesh make_step(const glm::dvec2& size_m, double depth_m);
 /// and lid, and where handle and spout enter the body.
 Mesh make_teapot();
 
-/// A sitting rabbit, 1 m high, standing on y = 0, looking towards +Z. Closed and smooth; without UVs.
+/// A sitting rabbit, 1 m high, standing on y = 0, looking towards +Z. Closed and smooth. Its UVs are laid on
+/// along Z, without a seam: u = x + 0.5, v = y.
 Mesh make_rabbit();
 
 }  // namespace focalstage

@@ -64,6 +64,7 @@ Mesh make_rabbit() {
   const double height_m = bounds.size_m().y;
   for (glm::dvec3& p : mesh.positions_m) {
     p = {p.x / height_m, (p.y - bounds.min_m.y) / height_m, p.z / height_m};
+    mesh.uvs.emplace_back(p.x + 0.5, p.y);
   }
   return mesh;
 }

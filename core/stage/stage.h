@@ -29,7 +29,8 @@ struct Finish {
   bool operator==(const Finish&) const = default;
 };
 
-/// One mesh standing in the world. The mesh is shared, so what did not change since the last stage has the same address.
+/// One mesh standing in the world. The mesh is shared, so what did not change since the last stage has the same
+/// address.
 struct Drawable {
   std::shared_ptr<const Mesh> mesh;
   glm::dmat4 world_from_mesh{1.0};
@@ -72,7 +73,8 @@ struct Stage {
 /// Primitive meshes are made once per shape and shared between calls.
 Result<Stage> stage(const Project& project, const Assets& assets, double time_s);
 
-/// The pose of a placement at `time_s`: before the first key the first, after the last the last; linear and slerp between.
+/// The pose of a placement at `time_s`: before the first key the first, after the last the last; linear and slerp
+/// between.
 Rigid pose_at(const Placement& placement, double time_s);
 
 }  // namespace focalstage

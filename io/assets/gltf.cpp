@@ -7,6 +7,7 @@
 
 #include "io/assets/gltf_accessors.h"
 #include "io/assets/gltf_animations.h"
+#include "io/assets/gltf_container.h"
 #include "io/assets/gltf_materials.h"
 #include "io/assets/gltf_meshes.h"
 #include "io/assets/gltf_nodes.h"

@@ -8,14 +8,7 @@
 
 namespace focalstage {
 
-/// The JSON text inside a .gltf (all of it) or a .glb (its first chunk), the container checked. `glb` tells which.
-struct GltfText {
-  std::span<const std::byte> json;
-  bool glb = false;
-};
-Result<GltfText> gltf_text(std::span<const std::byte> bytes, const std::string& path);
-
-/// Whether the JSON is well formed, no deeper than 64 levels, and every member that the readers use has the type
+/// Whether the JSON is well formed and every member that the readers use has the type
 /// glTF 2.0 gives it. tinygltf passes over members of a wrong type and cuts integers off; it must never see one. Faults
 /// name the place: "path: /accessors/3/count". Returns the uris of its buffers and images, as written.
 Result<std::vector<std::string>> check_gltf_shape(std::span<const std::byte> json, const std::string& path);

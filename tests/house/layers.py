@@ -107,14 +107,17 @@ def line_of(text, offset):
     return text.count("\n", 0, offset) + 1
 
 
+def linked_by_hand(root, name):
+    """What a room's own room.cmake links."""
+    extra = root / name / "room.cmake"
+    return set(re.findall(r"[A-Za-z_]+::[A-Za-z+_]+", extra.read_text())) if extra.exists() else set()
+
+
 def check_library(root, header, room, rooms):
-    visible = set(room.libs) | set(room.private_libs)
-    extra = root / room.name / "room.cmake"
-    if extra.exists():
-        visible |= set(re.findall(r"[A-Za-z_]+::[A-Za-z+_]+", extra.read_text()))
+    visible = set(room.libs) | set(room.private_libs) | linked_by_hand(root, room.name)
     for name in reach(rooms, room.uses):
         if name in rooms:
-            visible |= set(rooms[name].libs)
+            visible |= set(rooms[name].libs) | linked_by_hand(root, name)
     for pattern, library in LIBRARY_OF:
         if re.match(pattern, header) and library not in visible:
             return f"includes <{header}>, but {room.name} does not link {library}"

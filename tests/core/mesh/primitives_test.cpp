@@ -185,5 +185,8 @@ TEST_CASE("the rabbit is closed, smooth and stands") {
   CHECK(vertices - faces / 2 == -2);
   const SmoothParts parts = smooth_parts(rabbit);
   CHECK(*std::max_element(parts.area_m2.begin(), parts.area_m2.end()) > 0.999 * mesh_area_m2(rabbit));
+  for (std::size_t i = 0; i < rabbit.uvs.size(); ++i) {
+    CHECK(rabbit.uvs[i] == glm::dvec2(rabbit.positions_m[i].x + 0.5, rabbit.positions_m[i].y));
+  }
   CHECK(rabbit == make_rabbit());
 }

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "core/base/result.h"
+
+namespace focalstage {
+
+/// The JSON text inside a .gltf (all of it) or a .glb (its first chunk), the container checked. `glb` tells
+/// which. What no parser should be given (over 64 levels deep, over two million values) is refused here.
+struct GltfText {
+  std::span<const std::byte> json;
+  bool glb = false;
+};
+Result<GltfText> gltf_text(std::span<const std::byte> bytes, const std::string& path);
+
+}  // namespace focalstage
