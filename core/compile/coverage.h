@@ -19,6 +19,6 @@ struct ObjectCoverage {
 
 /// Looks from both pupils over a regular grid about as fine as `grid` x `grid` over the objects.
 std::vector<ObjectCoverage> measure_coverage(const Stage& stage, const ProjectorModel& projector,
-                                             double lens_to_pupil_m, double lens_aperture_m, int grid = 128);
+                                             double lens_to_pupil_m, double lens_aperture_m, int grid = 64);
 
 }  // namespace focalstage
