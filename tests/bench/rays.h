@@ -16,8 +16,8 @@ class NaiveRays {
   ~NaiveRays();
 
   enum class Hits {
-    anew,  ///< b: each eye and slice is an image of its own, from the projector's ray on, as one writes it first
-    kept,  ///< what the projector meets and an eye sees of it is traced once and serves all slices
+    anew,  ///< b: each eye and slice is an image of its own, from the projector's ray on; only what is hidden is kept
+    kept,  ///< what the projector meets is traced once per eye and serves all its slices
   };
 
   void frame(Hits hits, std::vector<std::uint8_t>& codes) const;

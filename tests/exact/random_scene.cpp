@@ -1,14 +1,11 @@
 #include "tests/exact/random_scene.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 
 #include <glm/geometric.hpp>
 
-#include "tests/support/chance.h"
-#include "tests/support/shapes.h"
+#include "tests/exact/random_things.h"
 
 namespace focalstage::exact {
 namespace {
@@ -16,138 +13,9 @@ namespace {
 using support::Chance;
 using support::SharedMesh;
 
-constexpr double pi = std::numbers::pi;
-
 /// Depths are drawn evenly in dioptres, as eyes count them.
 double distance_m(Chance& chance, double near_m, double far_m) {
   return 1.0 / chance.between(1.0 / far_m, 1.0 / near_m);
-}
-
-glm::dquat turned(Chance& chance, double most_deg) {
-  return glm::angleAxis(chance.between(-most_deg, most_deg) * pi / 180.0, chance.direction());
-}
-
-SharedMesh random_triangles(Chance& chance, double size_m) {
-  auto mesh = std::make_shared<Mesh>();
-  const int count = chance.whole(1, 60);
-  for (int i = 0; i < count; ++i) {
-    const auto first = static_cast<unsigned>(mesh->positions_m.size());
-    const glm::dvec3 middle = chance.within(size_m / 2.0);
-    for (int corner = 0; corner < 3; ++corner) {
-      mesh->positions_m.push_back(middle + chance.within(size_m * 0.7));
-      mesh->uvs.push_back({chance.between(-2.0, 2.0), chance.between(-2.0, 2.0)});
-    }
-    mesh->triangles.emplace_back(first, first + 1, first + 2);
-  }
-  return mesh;
-}
-
-SharedMesh random_surface(Chance& chance, double size_m, std::string& story) {
-  const glm::dvec2 size{size_m, size_m * chance.between(0.6, 1.2)};
-  switch (chance.whole(0, 6)) {
-    case 0:
-      story += " plane";
-      return support::rectangle(size);
-    case 1:
-      story += " bumpy";
-      return support::bumpy(size, size_m * chance.between(0.01, 0.1), chance.whole(3, 60));
-    case 2:
-      story += " step";
-      return support::step(size, size_m * chance.between(-0.3, 0.3));
-    case 3:
-      story += " corner";
-      return support::fold(size * glm::dvec2(0.6, 1.0), chance.between(60.0, 300.0));
-    case 4:
-      story += " bowl";
-      return support::bumpy(size, size_m * 0.2, chance.whole(3, 40), 0.5);
-    case 5:
-      story += " ball";
-      return support::blob(size_m * 0.4, chance.whole(2, 30), 0.1, chance.seed());
-    default:
-      story += " box";
-      return support::box({size_m * 0.6, size_m * 0.5, size_m * 0.4});
-  }
-}
-
-SharedMesh random_object(Chance& chance, double size_m, std::string& story) {
-  const glm::dvec2 size{size_m, size_m * chance.between(0.6, 1.2)};
-  switch (chance.whole(0, 5)) {
-    case 0:
-      story += " plane";
-      return support::rectangle(size);
-    case 1:
-      story += " box";
-      return support::box(size_m * glm::dvec3(0.7, 0.6, 0.5));
-    case 2:
-      story += " blob";
-      return support::blob(size_m * 0.5, chance.whole(1, 40), chance.between(0.0, 0.4), chance.seed());
-    case 3:
-      story += " bumpy";
-      return support::bumpy(size, size_m * chance.between(0.02, 0.2), chance.whole(2, 50));
-    case 4:
-      story += " step";
-      return support::step(size, size_m * 0.3);
-    default:
-      story += " soup";
-      return random_triangles(chance, size_m);
-  }
-}
-
-std::shared_ptr<const Texture> random_texture(Chance& chance) {
-  auto texture = std::make_shared<Texture>();
-  texture->width_px = chance.whole(1, 40);
-  texture->height_px = chance.whole(1, 40);
-  for (int i = 0; i < 4 * texture->width_px * texture->height_px; ++i) {
-    texture->rgba.push_back(static_cast<std::uint8_t>(chance.whole(0, 255)));
-  }
-  constexpr std::array<Wrap, 3> wraps{Wrap::repeat, Wrap::mirror, Wrap::clamp};
-  texture->wrap_u = wraps[static_cast<std::size_t>(chance.whole(0, 2))];
-  texture->wrap_v = wraps[static_cast<std::size_t>(chance.whole(0, 2))];
-  return texture;
-}
-
-glm::dvec3 random_colour(Chance& chance) { return glm::dvec3(0.5) + chance.within(0.5); }
-
-Finish random_finish(Chance& chance, std::string& story) {
-  Finish finish;
-  finish.a = chance.one_in(4) ? glm::dvec3(1.0) : random_colour(chance);
-  finish.lit = chance.one_in(3);
-  switch (chance.whole(0, 2)) {
-    case 0:
-      break;
-    case 1:
-      finish.kind = Finish::Kind::checker;
-      finish.squares = {chance.whole(1, 24), chance.whole(1, 24)};
-      finish.b = chance.one_in(2) ? glm::dvec3(0.0) : random_colour(chance);
-      break;
-    default:
-      finish.kind = Finish::Kind::textured;
-      finish.texture = random_texture(chance);
-  }
-  constexpr std::array<const char*, 3> names{"flat", "checker", "textured"};
-  story.append(":").append(names[static_cast<std::size_t>(finish.kind)]).append(finish.lit ? ":lit" : "");
-  return finish;
-}
-
-Depth random_depth(Chance& chance, std::size_t slices, std::string& story) {
-  Depth depth;
-  depth.mode = static_cast<DepthMode>(chance.whole(0, 3));
-  if (depth.mode == DepthMode::fixed) depth.vergence_d = chance.between(0.0, 4.0);
-  if (depth.mode == DepthMode::offset) depth.vergence_d = chance.between(-1.0, 1.0);
-  depth.index = chance.whole(0, static_cast<int>(slices) - 1);
-  constexpr std::array<const char*, 4> names{"placed", "fixed", "offset", "slice"};
-  story.append(":").append(names[static_cast<std::size_t>(depth.mode)]);
-  return depth;
-}
-
-Light random_light(Chance& chance) {
-  Light light;
-  light.kind = static_cast<LightKind>(chance.whole(0, 2));
-  light.position_m = chance.within(1.0);
-  light.direction = chance.direction() * chance.between(0.1, 3.0);
-  light.color = random_colour(chance);
-  light.intensity = chance.between(0.2, 1.5);
-  return light;
 }
 
 void draw_slices(Chance& chance, Project& project, std::string& story) {
