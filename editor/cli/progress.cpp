@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::chrono::milliseconds bar_interval{80};
 constexpr std::chrono::milliseconds line_interval{2000};
-constexpr int bar_cells = 30;
+constexpr int least_bar_cells = 10;
+constexpr int most_bar_cells = 30;
 
 int terminal_columns() {
   winsize size{};
@@ -80,8 +81,10 @@ void Progress::draw_bar(double done, double of, const std::string& unit, double 
   const double share = done / of;
   char percent[16];
   std::snprintf(percent, sizeof percent, " %3.0f %%", std::floor(100.0 * share));
-  std::string line = title_ + "  " + bar_text(share, bar_cells) + percent + count_text(done, of, unit) +
-                     left_text(done, of, elapsed_s);
+  const std::string start = title_ + "  ";
+  const std::string end = percent + count_text(done, of, unit) + left_text(done, of, elapsed_s);
+  const int room = terminal_columns() - 1 - static_cast<int>(start.size() + end.size()) - 2;
+  std::string line = start + bar_text(share, std::clamp(room, least_bar_cells, most_bar_cells)) + end;
   line.resize(std::min(line.size(), static_cast<std::size_t>(terminal_columns() - 1)));
   std::fprintf(stderr, "\r%s\033[K", line.c_str());
   std::fflush(stderr);
