@@ -29,7 +29,7 @@ std::string count_text(double done, double of, const std::string& unit) {
 }
 
 std::string left_text(double done, double of, double elapsed_s) {
-  if (done <= 0.0 || elapsed_s < 0.3) return "";
+  if (done <= 0.0 || done >= of || elapsed_s < 0.3) return "";
   return "  " + duration_text(elapsed_s * (of - done) / done) + " left";
 }
 
@@ -67,7 +67,8 @@ void Progress::update(double done, double of, const std::string& unit) {
   ended_ = done >= of;
   const bool last = ended_;
   const auto interval = terminal_ ? bar_interval : line_interval;
-  if (!last && now - shown_ < interval) return;
+  const bool quickly_done = last && !terminal_ && shown_ == started_;
+  if (quickly_done || (!last && now - shown_ < interval)) return;
   shown_ = now;
   const double elapsed_s = std::chrono::duration<double>(now - started_).count();
   if (terminal_) {
