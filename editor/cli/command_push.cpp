@@ -27,7 +27,10 @@ ExitStatus run(const Options& options) {
         options.show, options.activate, [&](double share) { bar.update(share, 1.0, ""); }, interrupt.token());
   }
   if (!pushed) {
-    const ExitStatus status = report(pushed.fault());
+    Fault fault = pushed.fault();
+    // A rig speaks of its own copy; what the user knows is the show.
+    if (fault.where.find(options.show) == std::string::npos) fault.where = options.show + ": " + fault.where;
+    const ExitStatus status = report(fault);
     interrupt.end_if_asked();
     return status;
   }

@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::chrono::milliseconds bar_interval{80};
 constexpr std::chrono::milliseconds line_interval{2000};
-constexpr int bar_cells = 30;
+constexpr int least_bar_cells = 10;
+constexpr int most_bar_cells = 30;
 
 int terminal_columns() {
   winsize size{};
@@ -28,7 +29,7 @@ std::string count_text(double done, double of, const std::string& unit) {
 }
 
 std::string left_text(double done, double of, double elapsed_s) {
-  if (done <= 0.0 || elapsed_s < 0.3) return "";
+  if (done <= 0.0 || done >= of || elapsed_s < 0.3) return "";
   return "  " + duration_text(elapsed_s * (of - done) / done) + " left";
 }
 
@@ -66,7 +67,8 @@ void Progress::update(double done, double of, const std::string& unit) {
   ended_ = done >= of;
   const bool last = ended_;
   const auto interval = terminal_ ? bar_interval : line_interval;
-  if (!last && now - shown_ < interval) return;
+  const bool quickly_done = last && !terminal_ && shown_ == started_;
+  if (quickly_done || (!last && now - shown_ < interval)) return;
   shown_ = now;
   const double elapsed_s = std::chrono::duration<double>(now - started_).count();
   if (terminal_) {
@@ -80,8 +82,10 @@ void Progress::draw_bar(double done, double of, const std::string& unit, double 
   const double share = done / of;
   char percent[16];
   std::snprintf(percent, sizeof percent, " %3.0f %%", std::floor(100.0 * share));
-  std::string line = title_ + "  " + bar_text(share, bar_cells) + percent + count_text(done, of, unit) +
-                     left_text(done, of, elapsed_s);
+  const std::string start = title_ + "  ";
+  const std::string end = percent + count_text(done, of, unit) + left_text(done, of, elapsed_s);
+  const int room = terminal_columns() - 1 - static_cast<int>(start.size() + end.size()) - 2;
+  std::string line = start + bar_text(share, std::clamp(room, least_bar_cells, most_bar_cells)) + end;
   line.resize(std::min(line.size(), static_cast<std::size_t>(terminal_columns() - 1)));
   std::fprintf(stderr, "\r%s\033[K", line.c_str());
   std::fflush(stderr);

@@ -7,6 +7,7 @@
 
 #include "core/stage/stage.h"
 #include "editor/cli/compile_show.h"
+#include "io/project/project_file.h"
 #include "io/show/reader.h"
 
 using namespace focalstage;
@@ -25,7 +26,6 @@ struct Folder {
 
 Source small_source(int frames) {
   Source source;
-  source.text = "{}";
   Project& project = source.project;
   project.name = "Queue";
   project.projectors.push_back({});
@@ -44,6 +44,7 @@ Source small_source(int frames) {
   screen.placement.pose.position_m = {0.0, 0.0, -0.515};
   screen.illumination = 0.5;
   project.surfaces.push_back(screen);
+  source.text = project_text(project);
   return source;
 }
 
