@@ -11,6 +11,9 @@
 
 namespace focalstage {
 
+/// Nothing nearer to the projector than this is lit.
+inline constexpr double nearest_lit_m = 1e-3;
+
 /// All that decides the images of a frame apart from the stage.
 struct CompileSettings {
   ProjectorModel projector;

@@ -7,11 +7,12 @@
 #include <limits>
 #include <utility>
 
+#include "core/compile/frame.h"
+
 namespace focalstage {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr double nearest_to_projector_m = 1e-3;
 
 void take_in(Box& box, float x, float y) {
   box.min_x = std::min(box.min_x, x);
@@ -113,7 +114,7 @@ ProjectorHits projector_hits(const ProjectorRays& rays, const ProjectorModel& pr
                              const std::vector<ViewDrawable>& surfaces, const Kernel& kernel) {
   const Box bounds = bounds_of(rays);
   ViewTriangles view;
-  set_up(view, surfaces, projector.world_from_projector.inverse(), nearest_to_projector_m, bounds);
+  set_up(view, surfaces, projector.world_from_projector.inverse(), nearest_lit_m, bounds);
   Cells cells;
   sort_into_cells(cells, view, bounds, rays.grid.columns(), rays.grid.rows(), {}, 0.0);
   const KernelView in_cells = kernel_view(view, cells);

@@ -27,7 +27,7 @@ Samples::Samples(const Stage& stage, const CompileSettings& settings, View from_
       from_projector_(std::move(from_projector)) {}
 
 Result<Samples> Samples::of(const Stage& stage, const CompileSettings& settings) {
-  Result<View> lit = view_of(stage.surfaces, settings.projector.world_from_projector.inverse(), 0.0);
+  Result<View> lit = view_of(stage.surfaces, settings.projector.world_from_projector.inverse(), nearest_lit_m);
   if (!lit) return lit.fault();
   Samples samples(stage, settings, *std::move(lit));
   const double nearest_m = settings.lens_to_pupil_m + near_plane_m;
