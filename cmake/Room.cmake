@@ -45,6 +45,10 @@ function(focalstage_room_tests room)
   endforeach()
   target_compile_definitions(test_${name} PRIVATE FOCALSTAGE_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
                              FOCALSTAGE_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  if(NOT TARGET unit_tests)
+    add_custom_target(unit_tests)  # builds all of them and nothing else
+  endif()
+  add_dependencies(unit_tests test_${name})
   add_test(NAME ${name} COMMAND test_${name})
   set_tests_properties(${name} PROPERTIES LABELS "unit;${TESTS_LABELS}" TIMEOUT 300)
 endfunction()

@@ -26,7 +26,7 @@ focalstage_room(io/protocol     USES io/project io/files core/scene)
 focalstage_room(devices/sim     USES core/base)
 focalstage_room(devices/player  USES devices/sim io/show core/schedule)
 focalstage_room(devices/runtime USES devices/player devices/sim io/show io/project io/protocol io/files core/check
-                                PRIVATE_LIBS spdlog::spdlog gRPC::grpc++_reflection)
+                                PRIVATE_LIBS spdlog::spdlog gRPC::grpc++ gRPC::grpc++_reflection)
 
 # editor: what people touch
 focalstage_room(editor/cli      USES io/project io/assets io/show io/export io/protocol core/check core/reference

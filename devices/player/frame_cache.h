@@ -11,6 +11,7 @@
 
 #include "core/base/result.h"
 #include "core/compile/frame.h"
+#include "devices/player/priority_mutex.h"
 
 namespace focalstage {
 
@@ -53,7 +54,7 @@ class FrameCache {
   std::unique_ptr<FrameSource> source_;
   int frames_;
   int kept_;
-  mutable std::mutex mutex_;
+  mutable PriorityMutex mutex_;
   std::condition_variable_any changed_;
   int wanted_ = 0;
   std::optional<int> prepared_;

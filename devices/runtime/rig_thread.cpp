@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include <spdlog/spdlog.h>
+
 #include "devices/runtime/detection.h"
 
 namespace focalstage {
@@ -35,14 +37,14 @@ RigThread::~RigThread() {
   changed_.notify_all();
 }
 
-std::unique_lock<std::mutex> RigThread::take_turn() const {
+std::unique_lock<PriorityMutex> RigThread::take_turn() const {
   ++waiting_;
   std::unique_lock lock(mutex_);
   --waiting_;
   return lock;
 }
 
-void RigThread::let_others(std::unique_lock<std::mutex>& lock) const {
+void RigThread::let_others(std::unique_lock<PriorityMutex>& lock) const {
   if (waiting_ == 0) return;
   lock.unlock();
   while (waiting_ > 0) std::this_thread::yield();
@@ -106,7 +108,9 @@ void RigThread::hand_over_next() {
   if (sweep.missed) ++late_sweeps_;
   next_start_s_ += sweep.show->plan.period_s;
   ledger_.ask(std::move(sweep));
-  if (!player_.running()) on_time_ = false;
+  if (player_.running()) return;
+  on_time_ = false;
+  spdlog::error("dark: {}", player_.fault() ? describe(*player_.fault()) : std::string());
 }
 
 void RigThread::settle_until(double time_s) {
@@ -130,6 +134,7 @@ void RigThread::make_dark(const Fault& fault) {
   player_.blackout(at_s, fault);
   ledger_.call_off_after(at_s);
   on_time_ = false;
+  spdlog::error("dark: {}; {} sweeps late so far", describe(fault), late_sweeps_);
 }
 
 Status RigThread::activate(std::shared_ptr<const LoadedShow> show) {

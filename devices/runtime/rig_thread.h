@@ -27,7 +27,7 @@ struct RigThreadSettings {
   RigLimits limits;
   RigClock clock = RigClock::real_time;
   AtEnd at_end = AtEnd::loop;
-  int sweeps_ahead = 4;  ///< handed over before they begin, so that a pause of this program is not seen
+  int sweeps_ahead = 6;  ///< handed over before they begin, so that a pause of this program is not seen
 };
 
 /// Plays shows on the simulated rig, sweep after sweep, in a thread of its own. In real time sweeps are handed over a
@@ -51,8 +51,8 @@ class RigThread {
 
  private:
   /// The lock, for a caller from outside: in virtual time the rig's own thread would hardly ever let go of it.
-  std::unique_lock<std::mutex> take_turn() const;
-  void let_others(std::unique_lock<std::mutex>& lock) const;
+  std::unique_lock<PriorityMutex> take_turn() const;
+  void let_others(std::unique_lock<PriorityMutex>& lock) const;
 
   void run(const std::stop_token& stop);
   bool has_work() const;
@@ -65,7 +65,7 @@ class RigThread {
   Status command(Status (Player::*what)());
 
   RigThreadSettings settings_;
-  mutable std::mutex mutex_;
+  mutable PriorityMutex mutex_;
   mutable std::atomic<int> waiting_ = 0;
   mutable std::condition_variable_any changed_;
   SimRig sim_;

@@ -1,0 +1,139 @@
+#!/usr/bin/python3
+"""Pushing under bad luck: damaged shows, killed clients, a killed rig, a second rig on the same port."""
+
+import pathlib
+import random
+import signal
+import subprocess
+import time
+
+from harness import (DONE, ENVIRONMENT, FOCALSTAGE, INVALID, RUNTIME, expect, focalstage, folder, free_port, main, rig,
+                     small_project, succeed, write_project)
+
+KILLS = 100
+
+
+def big_show(at):
+    """A show of several chunks that a simulated rig takes."""
+    project = small_project(frames=24)
+    project["projectors"][0].update(width_px=1024, height_px=768, fx_px=1280, fy_px=1280, cx_px=512, cy_px=384)
+    project["objects"][0].update(mesh={"primitive": "plane", "size_m": [0.3, 0.2]},
+                                 appearance={"checker": {"squares": [301, 211], "a": [1, 1, 1], "b": [0.1, 0.1, 0.1]}})
+    return project
+
+
+def compiled(at, address, name="big", project=None):
+    write_project(at / name, project or big_show(at))
+    succeed("adopt-rig", at / name, "--to", address)
+    ran = focalstage("compile", at / name, "-o", at / f"{name}.h5")
+    assert ran.status == DONE, ran
+    return at / f"{name}.h5"
+
+
+def test_damaged_shows_are_refused():
+    """A cut or a flipped bit never becomes the rig's show; what plays goes on."""
+    dice = random.Random(5)
+    with folder() as at, rig(at) as address:
+        good = compiled(at, address, "small", small_project(frames=2))
+        succeed("push", good, "--to", address, "--activate")
+        before = succeed("rig", "play", "--to", address, "--json").json()
+        data = good.read_bytes()
+        bad = at / "bad.h5"
+        for k in range(12):
+            damaged = bytearray(data)
+            if k % 2:
+                damaged = damaged[: dice.randrange(1, len(data))]
+            else:
+                damaged[dice.randrange(len(data))] ^= 1 << dice.randrange(8)
+            bad.write_bytes(damaged)
+            ran = focalstage("push", bad, "--to", address, "--activate")
+            assert ran.status in (INVALID, ENVIRONMENT), ran
+            expect(ran, ran.status, "bad.h5")
+        after = succeed("rig", "state", "--to", address, "--json").json()
+        assert after["state"] == "playing" and after["show_sha256"] == before["show_sha256"], after
+
+
+def test_killed_pushes():
+    """Clients killed at random moments of a push: the rig plays on, the last push brings the show whole."""
+    seed = random.SystemRandom().randrange(1 << 32)
+    dice = random.Random(seed)
+    with folder() as at, rig(at) as address:
+        first = compiled(at, address, "small", small_project(frames=2))
+        second = compiled(at, address)
+        succeed("push", first, "--to", address, "--activate")
+        playing = succeed("rig", "play", "--to", address, "--json").json()["show_sha256"]
+        started = time.monotonic()
+        succeed("push", second, "--to", address)
+        whole_s = time.monotonic() - started
+        kills = finished = 0
+        while kills < KILLS and finished < 3 * KILLS:
+            process = subprocess.Popen([FOCALSTAGE, "push", str(second), "--to", address], stdout=subprocess.DEVNULL,
+                                       stderr=subprocess.DEVNULL)
+            try:
+                process.wait(dice.uniform(0.0, whole_s))
+                finished += 1
+            except subprocess.TimeoutExpired:
+                process.send_signal(signal.SIGKILL)
+                process.wait()
+                kills += 1
+        state = succeed("rig", "state", "--to", address, "--json").json()
+        assert state["state"] == "playing" and state["show_sha256"] == playing, f"seed {seed}: {state}"
+        deadline = time.monotonic() + 30
+        while True:  # the last victim's lease may still hold the rig
+            ran = focalstage("push", second, "--to", address, "--activate")
+            if ran.status == DONE or time.monotonic() > deadline:
+                break
+            assert "rig.held" in ran.err, f"seed {seed}: {ran}"
+            time.sleep(0.5)
+        assert ran.status == DONE, f"seed {seed}: {ran}"
+        state = succeed("rig", "state", "--to", address, "--json").json()
+        assert state["show_sha256"] != playing, f"seed {seed}: {state}"
+    return f"seed {seed}, {second.name}: {kills} kills, {finished} finished"
+
+
+def test_killed_rigs():
+    """A rig killed during pushes forgets at most what had not arrived; nothing half pushed is taken as whole."""
+    dice = random.Random(7)
+    with folder() as at:
+        with rig(at) as address:
+            show = compiled(at, address)
+        for _ in range(10):
+            address = f"127.0.0.1:{free_port()}"
+            process = subprocess.Popen([RUNTIME, "--rig", "sim", "--listen", address, "--store", str(at / "rig")],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            client = subprocess.Popen([FOCALSTAGE, "push", str(show), "--to", address, "--activate"],
+                                      stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(dice.uniform(0.05, 0.5))
+            process.kill()
+            process.wait()
+            client.wait(60)
+        with rig(at) as address:
+            succeed("push", show, "--to", address, "--activate")
+
+
+def test_second_rig_on_the_same_port():
+    with folder() as at, rig(at) as address:
+        (at / "other").mkdir()
+        second = subprocess.run([RUNTIME, "--rig", "sim", "--listen", address, "--store", str(at / "other")],
+                                capture_output=True, text=True, timeout=30)
+        assert second.returncode == ENVIRONMENT, second
+        assert address in second.stderr and second.stderr.count("\n") == 1, second.stderr
+        succeed("rig", "state", "--to", address)
+
+
+def test_interrupted_push():
+    with folder() as at, rig(at) as address:
+        show = compiled(at, address)
+        process = subprocess.Popen([FOCALSTAGE, "push", str(show), "--to", address], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        time.sleep(0.03)
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=10)
+        assert process.returncode in (-signal.SIGINT, DONE), process.returncode
+        succeed("push", show, "--to", address, "--activate")
+        assert pathlib.Path(show).exists()
+
+
+if __name__ == "__main__":
+    main([test_damaged_shows_are_refused, test_killed_pushes, test_killed_rigs, test_second_rig_on_the_same_port,
+          test_interrupted_push])
