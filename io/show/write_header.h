@@ -8,7 +8,7 @@
 
 namespace focalstage {
 
-/// Everything of a show but its images, in one fixed order (design section 7, docs/decisions/show-file.md).
+/// Everything of a show but its images, in one fixed order (design section 7, docs/formats/show.md).
 void write_header(Hdf5Out& out, const ShowHeader& header, const std::vector<FrameMeasure>& measures);
 
 }  // namespace focalstage
