@@ -109,9 +109,13 @@ void look_at_objects(EyeView& out, const Stage& stage, const std::vector<ViewDra
   out.rules.clear();
   out.shaders.clear();
   out.owner.clear();
+  out.first.clear();
   out.one_rule = true;
   const Rigid world_from_eye = eye.eye_from_world.inverse();
+  std::int32_t first = 0;
   for (const ViewDrawable& object : objects) {
+    out.first.push_back(first);
+    first += static_cast<std::int32_t>(object.drawable->mesh->triangles.size());
     out.rules.push_back(rule_of(stage.objects[object.owner].depth));
     out.shaders.emplace_back(*object.drawable, stage.lights, world_from_eye);
     out.owner.push_back(object.owner);

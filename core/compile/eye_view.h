@@ -31,6 +31,7 @@ struct EyeView {
   Cells cells;
   std::vector<VergenceRule> rules;   ///< per drawable
   std::vector<Shader> shaders;       ///< per drawable
+  std::vector<std::int32_t> first;   ///< per drawable: its lowest index among the triangles
   std::vector<std::uint32_t> owner;  ///< per drawable: index in the stage's objects
   bool one_rule = true;              ///< all rules are alike, none pins a slice
   bool nothing = true;               ///< no triangle can be met

@@ -69,6 +69,20 @@ struct alignas(32) TileWeights {
   float weight[tile_samples];
 };
 
+/// What the lit samples of a tile have in common.
+struct TileLit {
+  int count = 0;
+  std::int32_t lowest_triangle = 0;  ///< of the indices met
+  std::int32_t highest_triangle = 0;
+  float lowest_d = 0.0f;  ///< of the powers wanted
+  float highest_d = 0.0f;
+};
+
+/// A checker on one triangle: square coordinates as affine functions of the look over a common one; see ViewTriangle.
+struct CheckerPlanes {
+  double u[3], v[3], common[3];  ///< per x, per y, constant
+};
+
 struct Kernel {
   /// Looks through a lens whose power times lens_to_pupil is `bend`.
   void (*place)(const TileHits& hits, double origin_x, double origin_y, float bend, float lens_to_pupil_m,
@@ -80,6 +94,16 @@ struct Kernel {
   /// Wanted power and weight where something is met; weight 0 elsewhere.
   void (*weigh)(const TileHits& hits, const TileNearest& nearest, const TileWants& wants, const SliceBand& band,
                 float bend, float lens_to_pupil_m, TileWeights& out);
+
+  /// Sums up the samples whose weight is above zero.
+  TileLit (*lit)(const TileNearest& nearest, const TileWeights& weights);
+
+  /// Adds weight * share * level to each sample of `light`.
+  void (*add_even)(const TileWeights& weights, float share, float level, float* light);
+
+  /// Adds weight * share * (the level of the square that the look meets): `a` where the squares' numbers sum to even.
+  void (*add_checker)(const CheckerPlanes& planes, const TileLooks& looks, double origin_x, double origin_y,
+                      const TileWeights& weights, float share, float a, float b, float* light);
 };
 
 extern const Kernel portable_kernel;

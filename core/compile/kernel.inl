@@ -177,8 +177,76 @@ void weigh(const TileHits& hits, const TileNearest& nearest, const TileWants& wa
   }
 }
 
+Ints less(Ints a, Ints b) { return a < b ? a : b; }
+Ints more(Ints a, Ints b) { return a > b ? a : b; }
+Floats less(Floats a, Floats b) { return a < b ? a : b; }
+Floats more(Floats a, Floats b) { return a > b ? a : b; }
+
+TileLit lit(const TileNearest& nearest, const TileWeights& weights) {
+  constexpr std::int32_t most = 0x7fffffff;
+  Ints count{};
+  Ints lowest = Ints{} + most;
+  Ints highest = Ints{} - 1;
+  Floats lowest_d = Floats{} + __builtin_inff();
+  Floats highest_d = Floats{} - __builtin_inff();
+  for (int first = 0; first < tile_samples; first += lanes) {
+    const Ints shown = load(weights.weight + first) > 0.0f;
+    const Ints index = load(nearest.triangle + first);
+    const Floats wanted_d = load(weights.wanted_d + first);
+    count -= shown;  // true is -1
+    lowest = shown ? less(lowest, index) : lowest;
+    highest = shown ? more(highest, index) : highest;
+    lowest_d = shown ? less(lowest_d, wanted_d) : lowest_d;
+    highest_d = shown ? more(highest_d, wanted_d) : highest_d;
+  }
+  TileLit all{count[0], lowest[0], highest[0], lowest_d[0], highest_d[0]};
+  for (int i = 1; i < lanes; ++i) {
+    all.count += count[i];
+    if (lowest[i] < all.lowest_triangle) all.lowest_triangle = lowest[i];
+    if (highest[i] > all.highest_triangle) all.highest_triangle = highest[i];
+    if (lowest_d[i] < all.lowest_d) all.lowest_d = lowest_d[i];
+    if (highest_d[i] > all.highest_d) all.highest_d = highest_d[i];
+  }
+  return all;
+}
+
+void add_even(const TileWeights& weights, float share, float level, float* light) {
+  for (int first = 0; first < tile_samples; first += lanes) {
+    store(light + first, load(light + first) + load(weights.weight + first) * share * level);
+  }
+}
+
+using FourInts = std::int32_t __attribute__((vector_size(16)));
+
+/// The largest whole number not above each value; values are within an int.
+FourInts whole(Doubles value) {
+  const FourInts towards_zero = __builtin_convertvector(value, FourInts);
+  return towards_zero + __builtin_convertvector(value < __builtin_convertvector(towards_zero, Doubles), FourInts);
+}
+
+void add_checker(const CheckerPlanes& planes, const TileLooks& looks, double origin_x, double origin_y,
+                 const TileWeights& weights, float share, float a, float b, float* light) {
+  constexpr int half = lanes / 2;
+  for (int first = 0; first < tile_samples; first += half) {
+    const FourFloats local_x = *reinterpret_cast<const FourFloats*>(looks.x + first);
+    const FourFloats local_y = *reinterpret_cast<const FourFloats*>(looks.y + first);
+    const Doubles x = __builtin_convertvector(local_x, Doubles) + origin_x;
+    const Doubles y = __builtin_convertvector(local_y, Doubles) + origin_y;
+    const Doubles per = 1.0 / (planes.common[0] * x + planes.common[1] * y + planes.common[2]);
+    const FourInts column = whole((planes.u[0] * x + planes.u[1] * y + planes.u[2]) * per);
+    const FourInts row = whole((planes.v[0] * x + planes.v[1] * y + planes.v[2]) * per);
+    const FourInts odd = ((column + row) & 1) != 0;
+    const FourFloats weight = *reinterpret_cast<const FourFloats*>(weights.weight + first);
+    const FourFloats level = odd ? FourFloats{} + b : FourFloats{} + a;
+    const FourFloats added =
+        weight > 0.0f ? weight * share * level : FourFloats{};  // elsewhere a look may meet nothing
+    FourFloats* const sum = reinterpret_cast<FourFloats*>(light + first);
+    *sum = *sum + added;
+  }
+}
+
 }  // namespace
 
-const Kernel FOCALSTAGE_KERNEL{place, cover, weigh};
+const Kernel FOCALSTAGE_KERNEL{place, cover, weigh, lit, add_even, add_checker};
 
 }  // namespace focalstage

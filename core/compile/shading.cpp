@@ -71,6 +71,26 @@ glm::dvec3 Shader::light(const ViewTriangle& triangle, const glm::dvec3& weights
   return sum;
 }
 
+std::optional<CheckerPlanes> Shader::checker_planes(const ViewTriangle& triangle) const {
+  const Finish& finish = drawable_->finish;
+  if (finish.kind != Finish::Kind::checker || lit_ || !needs_uv_) return std::nullopt;
+  const Mesh& mesh = *drawable_->mesh;
+  const glm::uvec3& t = mesh.triangles[triangle.triangle];
+  constexpr double far = 1e6;  // whole squares are counted in 32 bits
+  CheckerPlanes planes{};
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec2 square = mesh.uvs[t[i]] * glm::dvec2(finish.squares);
+    if (!(std::abs(square.x) < far) || !(std::abs(square.y) < far)) return std::nullopt;
+    const double edge[3] = {triangle.a[i], triangle.b[i], triangle.c[i]};
+    for (int k = 0; k < 3; ++k) {
+      planes.u[k] += edge[k] * square.x;
+      planes.v[k] += edge[k] * square.y;
+      planes.common[k] += edge[k];
+    }
+  }
+  return planes;
+}
+
 glm::dvec3 Shader::color(const ViewTriangle& triangle, double look_x, double look_y) const {
   if (uniform_) return uniform_color_;
   glm::dvec3 weights{triangle.edge(0, look_x, look_y), triangle.edge(1, look_x, look_y),

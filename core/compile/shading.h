@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "core/compile/kernel.h"
 #include "core/compile/view_triangles.h"
 #include "core/stage/stage.h"
 
@@ -18,6 +20,10 @@ class Shader {
 
   /// Linear colour where the look (x, y) meets `triangle`, a triangle of this drawable. It can exceed one.
   glm::dvec3 color(const ViewTriangle& triangle, double look_x, double look_y) const;
+
+  /// The squares on `triangle`, where this is an unlit checker of moderate size; none elsewhere.
+  std::optional<CheckerPlanes> checker_planes(const ViewTriangle& triangle) const;
+  const Finish& finish() const { return drawable_->finish; }
 
   /// The colour of every sample, where there is only one; null elsewhere.
   const glm::dvec3* uniform() const { return uniform_ ? &uniform_color_ : nullptr; }

@@ -1,6 +1,7 @@
 #include "core/compile/slice_tile.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace focalstage {
 namespace {
@@ -40,46 +41,111 @@ void add(const SliceRun& run, const glm::dvec3& color, float weight, int i, Tile
   for (int c = 0; c < 3; ++c) light.channel[c][i] += weight * static_cast<float>(color[c]);
 }
 
-/// Counts lit samples; most neighbours belong to the same object, so it keeps one tally at hand.
+/// How far samples want beyond the outermost slices, counted per object.
 class Counter {
  public:
-  Counter(const SliceRule& rule, std::vector<ObjectTally>& tallies)
-      : lowest_d_(static_cast<float>(rule.lowest_d())),
-        highest_d_(static_cast<float>(rule.highest_d())),
-        tallies_(tallies) {}
-  ~Counter() { put_back(); }
+  explicit Counter(const SliceRule& rule)
+      : lowest_d_(static_cast<float>(rule.lowest_d())), highest_d_(static_cast<float>(rule.highest_d())) {}
 
-  void count(std::uint32_t owner, bool pinned, float wanted_d) {
-    if (owner != owner_) {
-      put_back();
-      owner_ = owner;
-    }
-    ++now_.samples;
-    const float beyond_d = pinned ? 0.0f : std::max(lowest_d_ - wanted_d, wanted_d - highest_d_);
-    if (beyond_d > worst_d_) worst_d_ = beyond_d;
-    if (beyond_d > limit_d) ++now_.beyond;
+  /// Samples that want powers from `from_d` to `to_d`; `each` tells them apart where some may be beyond the limit.
+  template <class Each>
+  void count(int samples, float from_d, float to_d, ObjectTally& tally, const Each& each) const {
+    tally.samples += static_cast<std::uint64_t>(samples);
+    const float below_d = std::max(0.0f, lowest_d_ - from_d);
+    const float above_d = std::max(0.0f, to_d - highest_d_);
+    tally.worst_below_d = std::max<double>(tally.worst_below_d, below_d);
+    tally.worst_above_d = std::max<double>(tally.worst_above_d, above_d);
+    tally.worst_beyond_d = std::max(tally.worst_below_d, tally.worst_above_d);
+    if (below_d > limit_d || above_d > limit_d)
+      each([&](float wanted_d) { tally.beyond += is_beyond(wanted_d) ? 1 : 0; });
   }
 
  private:
   static constexpr float limit_d = 0.3f;
 
-  void put_back() {
-    if (now_.samples == 0) return;
-    ObjectTally& sum = tallies_[owner_];
-    sum.samples += now_.samples;
-    sum.beyond += now_.beyond;
-    sum.worst_beyond_d = std::max<double>(sum.worst_beyond_d, worst_d_);
-    now_ = {};
-    worst_d_ = 0.0f;
-  }
+  bool is_beyond(float wanted_d) const { return lowest_d_ - wanted_d > limit_d || wanted_d - highest_d_ > limit_d; }
 
   float lowest_d_;
   float highest_d_;
-  std::vector<ObjectTally>& tallies_;
-  std::uint32_t owner_ = 0;
-  ObjectTally now_;
-  float worst_d_ = 0.0f;
 };
+
+/// What one tile and slice came to, before it is coloured.
+struct Shown {
+  const SliceRun& run;
+  const EyeView& view;
+  const EyeTile& tile;
+  const TileLooks& looks;
+  const TileNearest& nearest;
+  const TileWeights& weights;
+};
+
+std::uint32_t drawable_at(const EyeView& view, std::int32_t index) {
+  return static_cast<std::uint32_t>(std::upper_bound(view.first.begin(), view.first.end(), index) - view.first.begin() -
+                                    1);
+}
+
+float level(const SliceRun& run, const glm::dvec3& color, int channel) {
+  return static_cast<float>(run.channels == 1 ? luminance(color) : color[channel]);
+}
+
+void color_each(const Shown& shown, TileLight& light) {
+  for (int i = 0; i < tile_samples; ++i) {
+    if (!(shown.weights.weight[i] > 0.0f)) continue;
+    const ViewTriangle& triangle = met(shown.view, shown.nearest, i);
+    const glm::dvec3 color = shown.view.shaders[triangle.drawable].color(
+        triangle, shown.tile.origin_x + static_cast<double>(shown.looks.x[i]),
+        shown.tile.origin_y + static_cast<double>(shown.looks.y[i]));
+    add(shown.run, color, shown.weights.weight[i] * shown.run.share, i, light);
+  }
+}
+
+/// All samples belong to one drawable: one colour, or squares of one triangle, go by the vector.
+void color_drawable(const Shown& shown, const TileLit& lit, std::uint32_t drawable, TileLight& light) {
+  const Kernel& kernel = *shown.run.kernel;
+  const Shader& shader = shown.view.shaders[drawable];
+  if (const glm::dvec3* color = shader.uniform()) {
+    for (int c = 0; c < shown.run.channels; ++c) {
+      kernel.add_even(shown.weights, shown.run.share, level(shown.run, *color, c), light.channel[c]);
+    }
+    return;
+  }
+  const ViewTriangle& triangle = shown.view.view.triangles[static_cast<std::size_t>(lit.lowest_triangle)];
+  const auto planes = lit.lowest_triangle == lit.highest_triangle ? shader.checker_planes(triangle) : std::nullopt;
+  if (!planes) return color_each(shown, light);
+  for (int c = 0; c < shown.run.channels; ++c) {
+    kernel.add_checker(*planes, shown.looks, shown.tile.origin_x, shown.tile.origin_y, shown.weights, shown.run.share,
+                       level(shown.run, shader.finish().a, c), level(shown.run, shader.finish().b, c),
+                       light.channel[c]);
+  }
+}
+
+void count_each(const Shown& shown, const Counter& counter, std::vector<ObjectTally>& tallies) {
+  for (int i = 0; i < tile_samples; ++i) {
+    if (!(shown.weights.weight[i] > 0.0f)) continue;
+    const std::uint32_t drawable = met(shown.view, shown.nearest, i).drawable;
+    ObjectTally& tally = tallies[shown.view.owner[drawable]];
+    if (shown.view.rules[drawable].slice >= 0) {
+      ++tally.samples;
+      continue;
+    }
+    const float wanted_d = shown.weights.wanted_d[i];
+    counter.count(1, wanted_d, wanted_d, tally, [&](const auto& one) { one(wanted_d); });
+  }
+}
+
+void count_drawable(const Shown& shown, const TileLit& lit, std::uint32_t drawable, const Counter& counter,
+                    std::vector<ObjectTally>& tallies) {
+  ObjectTally& tally = tallies[shown.view.owner[drawable]];
+  if (shown.view.rules[drawable].slice >= 0) {
+    tally.samples += static_cast<std::uint64_t>(lit.count);
+    return;
+  }
+  counter.count(lit.count, lit.lowest_d, lit.highest_d, tally, [&](const auto& one) {
+    for (int i = 0; i < tile_samples; ++i) {
+      if (shown.weights.weight[i] > 0.0f) one(shown.weights.wanted_d[i]);
+    }
+  });
+}
 
 }  // namespace
 
@@ -97,15 +163,18 @@ void slice_tile(const SliceRun& run, const EyeView& view, const EyeTile& tile, c
   if (slice.empty) std::fill_n(weights.weight, tile_samples, 0.0f);
   pin(view, nearest, static_cast<int>(slice_index), weights);
 
-  Counter counter(*run.rule, tallies);
-  for (int i = 0; i < tile_samples; ++i) {
-    if (!(weights.weight[i] > 0.0f)) continue;
-    const ViewTriangle& triangle = met(view, nearest, i);
-    const glm::dvec3 color = view.shaders[triangle.drawable].color(
-        triangle, tile.origin_x + static_cast<double>(looks.x[i]), tile.origin_y + static_cast<double>(looks.y[i]));
-    add(run, color, weights.weight[i] * run.share, i, light);
-    light.any = true;
-    counter.count(view.owner[triangle.drawable], view.rules[triangle.drawable].slice >= 0, weights.wanted_d[i]);
+  const TileLit lit = run.kernel->lit(nearest, weights);
+  if (lit.count == 0) return;
+  light.any = true;
+  const Shown shown{run, view, tile, looks, nearest, weights};
+  const Counter counter(*run.rule);
+  const std::uint32_t drawable = drawable_at(view, lit.lowest_triangle);
+  if (drawable == drawable_at(view, lit.highest_triangle)) {
+    color_drawable(shown, lit, drawable, light);
+    count_drawable(shown, lit, drawable, counter, tallies);
+  } else {
+    color_each(shown, light);
+    count_each(shown, counter, tallies);
   }
 }
 

@@ -51,6 +51,8 @@ void check_measures(const FrameMeasure& fast, const FrameMeasure& reference) {
     CHECK(fast.objects[i].index == reference.objects[i].index);
     CHECK(about_equal(fast.objects[i].samples, reference.objects[i].samples));
     CHECK(about_equal(fast.objects[i].beyond, reference.objects[i].beyond));
+    CHECK(fast.objects[i].worst_below_d == doctest::Approx(reference.objects[i].worst_below_d).epsilon(0.02));
+    CHECK(fast.objects[i].worst_above_d == doctest::Approx(reference.objects[i].worst_above_d).epsilon(0.02));
   }
 }
 
