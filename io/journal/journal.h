@@ -34,8 +34,8 @@ struct JournalStart {
   bool operator==(const JournalStart&) const = default;
 };
 
-/// The edits since the last save, on disk before anybody misses them: one checksummed line each, written at once (a kill
-/// of the program loses none) and brought to the disk by `sync` (a power cut loses what came after the last one).
+/// The edits since the last save, on disk before anybody misses them: one checksummed line each, written at once (a
+/// kill of the program loses none) and brought to the disk by `sync` (a power cut loses what came after the last one).
 ///
 /// While open it holds a lock: who finds a journal that is locked has found an editor at work, not a crash.
 class Journal {
