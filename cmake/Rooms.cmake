@@ -35,7 +35,7 @@ focalstage_room(editor/cli      USES editor/samples io/project io/assets io/show
                                      core/compile core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
 focalstage_room(editor/document USES editor/samples io/journal io/project io/assets io/files core/scene)
-focalstage_room(editor/preview  USES core/check core/compile core/schedule core/stage)
+focalstage_room(editor/preview  USES core/check core/compile core/retina core/schedule core/stage)
 focalstage_room(editor/rig      USES io/protocol io/show io/files core/compile core/schedule core/stage)
 focalstage_room(editor/session  USES editor/document editor/preview editor/rig io/export io/image core/reference)
 

@@ -49,39 +49,46 @@ bool AssetShelf::is_current(const Entry& entry) const {
   return true;
 }
 
-AssetShelf::Entry AssetShelf::read(const std::string& reference) const {
+AssetShelf::Entry AssetShelf::read_one(const std::filesystem::path& folder, const std::string& reference) {
   Entry entry;
-  entry.files[reference] = stamp_of(folder_ / reference);
-  auto loaded = load_assets(only(reference), folder_);
+  entry.files[reference] = stamp_of(folder / reference);
+  auto loaded = load_assets(only(reference), folder);
   if (!loaded) {
     entry.fault = loaded.fault();
     return entry;
   }
-  for (const AssetFile& file : loaded->files) entry.files[file.path] = stamp_of(folder_ / file.path);
+  for (const AssetFile& file : loaded->files) entry.files[file.path] = stamp_of(folder / file.path);
   entry.model = loaded->assets.models.at(reference);
   return entry;
 }
 
-bool AssetShelf::is_stale(const Project& project) const {
+std::vector<std::string> AssetShelf::wanted(const Project& project) const {
+  std::vector<std::string> references;
   for (const std::string& file : mesh_files(project)) {
     const auto found = entries_.find(file);
-    if (found == entries_.end() || !is_current(found->second)) return true;
+    if (found == entries_.end() || !is_current(found->second)) references.push_back(file);
   }
-  return false;
+  return references;
+}
+
+AssetShelf::Read AssetShelf::read(const std::filesystem::path& folder, const std::vector<std::string>& references) {
+  Read read;
+  for (const std::string& reference : references) read[reference] = read_one(folder, reference);
+  return read;
+}
+
+void AssetShelf::put(Read read) {
+  for (auto& [reference, entry] : read) {
+    if (entry.model) assets_.models[reference] = entry.model;
+    if (!entry.model) assets_.models.erase(reference);
+    entries_[reference] = std::move(entry);
+  }
 }
 
 bool AssetShelf::fetch(const Project& project) {
-  bool changed = false;
-  for (const std::string& file : mesh_files(project)) {
-    const auto found = entries_.find(file);
-    if (found != entries_.end() && is_current(found->second)) continue;
-    Entry entry = read(file);
-    if (entry.model) assets_.models[file] = entry.model;
-    if (!entry.model) assets_.models.erase(file);
-    entries_[file] = std::move(entry);
-    changed = true;
-  }
-  return changed;
+  const std::vector<std::string> references = wanted(project);
+  put(read(folder_, references));
+  return !references.empty();
 }
 
 std::vector<Finding> AssetShelf::findings(const Project& project) const {

@@ -20,11 +20,18 @@ class AssetShelf {
  public:
   explicit AssetShelf(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// Reads what `project` refers to and is not here yet or changed on disk since. True if `assets` changed.
-  bool fetch(const Project& project);
+  /// What was read of one reference: a model, or why there is none.
+  struct Entry;
+  using Read = std::map<std::string, Entry>;
 
-  /// Whether `fetch` would have something to read.
-  bool is_stale(const Project& project) const;
+  /// The references of `project` that are not here yet or changed on disk since.
+  std::vector<std::string> wanted(const Project& project) const;
+  /// Reads them. Any thread.
+  static Read read(const std::filesystem::path& folder, const std::vector<std::string>& references);
+  void put(Read read);
+
+  /// All three at once. True if `assets` changed.
+  bool fetch(const Project& project);
 
   const Assets& assets() const { return assets_; }
   /// One error "asset.missing" or "asset.invalid" per reference that cannot be had.
@@ -39,18 +46,19 @@ class AssetShelf {
     std::uintmax_t bytes = 0;
     bool operator==(const Stamp&) const = default;
   };
-  struct Entry {
-    std::map<std::filesystem::path, Stamp> files;  ///< that it was made of
-    std::shared_ptr<const Model> model;            ///< null: `fault` says why
-    Fault fault;
-  };
   static Stamp stamp_of(const std::filesystem::path& file);
+  static Entry read_one(const std::filesystem::path& folder, const std::string& reference);
   bool is_current(const Entry& entry) const;
-  Entry read(const std::string& reference) const;
 
   std::filesystem::path folder_;
-  std::map<std::string, Entry> entries_;
+  Read entries_;
   Assets assets_;
+};
+
+struct AssetShelf::Entry {
+  std::map<std::filesystem::path, Stamp> files;  ///< that it was made of
+  std::shared_ptr<const Model> model;            ///< null: `fault` says why
+  Fault fault;
 };
 
 /// The mesh files a project refers to, as it writes them.

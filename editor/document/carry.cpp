@@ -67,7 +67,7 @@ fs::path place_for(const fs::path& folder, const std::string& name, const std::v
 
 }  // namespace
 
-Result<std::string> Document::bring_in(const fs::path& file) {
+Result<std::string> bring_in(const fs::path& file, const fs::path& project_folder) {
   const std::string name = file.filename().string();
   Project only;
   only.objects.emplace_back();
@@ -80,10 +80,10 @@ Result<std::string> Document::bring_in(const fs::path& file) {
     if (fault.where.starts_with("/objects/0")) fault.where = file.string();
     return fault;
   }
-  const fs::path place = place_for(folder(), name, loaded->files);
+  const fs::path place = place_for(project_folder, name, loaded->files);
   const bool alone = loaded->files.size() == 1;
   for (AssetFile& piece : loaded->files) piece.path = (alone ? place : place / piece.path).string();
-  if (Status written = write_files(loaded->files, folder()); !written) return written.fault();
+  if (Status written = write_files(loaded->files, project_folder); !written) return written.fault();
   return (alone ? place : place / name).generic_string();
 }
 

@@ -56,8 +56,6 @@ class Document {
   Status save();
   /// Writes project and assets into `folder` (made if missing; must hold no other project) and goes on there.
   Status save_as(const std::filesystem::path& folder);
-  /// Copies `file` and all that it refers to into assets/. Returns the reference to write into the project.
-  Result<std::string> bring_in(const std::filesystem::path& file);
 
   /// Whether somebody else changed the project's file since it was read or saved.
   bool changed_outside() const;
@@ -93,6 +91,10 @@ class Document {
   std::optional<Fault> journal_fault_;
   UserFolders folders_;
 };
+
+/// Copies a mesh file and all that it refers to into the assets/ of a project's folder, once it has been read whole.
+/// Returns the reference to write into the project. Any thread. Faults "asset.*", "file.*".
+Result<std::string> bring_in(const std::filesystem::path& file, const std::filesystem::path& project_folder);
 
 /// Journals that nobody holds, of projects that were open when something went wrong; the newest first.
 std::vector<Recovery> recoveries(const UserFolders& folders, const std::vector<std::filesystem::path>& recent);
