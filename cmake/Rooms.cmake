@@ -9,6 +9,7 @@ focalstage_room(core/optics     USES core/stage core/scene)
 focalstage_room(core/compile    USES core/optics core/stage        PRIVATE_LIBS TBB::tbb)
 focalstage_room(core/reference  USES core/compile core/optics core/stage PRIVATE_LIBS embree TBB::tbb)
 focalstage_room(core/schedule   USES core/optics core/scene)
+focalstage_room(core/retina     USES core/optics core/stage        PRIVATE_LIBS TBB::tbb)
 focalstage_room(core/check      USES core/compile core/schedule core/optics core/scene)
 
 # io: everything that becomes bytes
