@@ -35,7 +35,7 @@ struct Session::State {
 
   Selection selection;
   ViewState view;
-  Value clipboard;  ///< things as add edits carry them
+  Value clipboard;                         ///< things as add edits carry them
   std::filesystem::path clipboard_folder;  ///< of the project they come from
   std::vector<std::filesystem::path> recent;
   std::vector<Recovery> left_behind;
@@ -67,7 +67,7 @@ struct Session::State {
 
   Preview preview;
   RigLink rig;
-  Jobs jobs;               ///< last: its threads end first
+  Jobs jobs;  ///< last: its threads end first
 
   const Project& project() const { return document ? document->project() : nothing; }
   std::uint64_t revision() const { return revision_base + (document ? document->history().revision() : 0); }
