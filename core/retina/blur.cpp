@@ -23,18 +23,6 @@ constexpr std::array<Layer, 25> layers{
      {4.0f, 1},  {5.0f, 2},  {6.0f, 2},  {8.0f, 2},  {10.0f, 2},  {12.0f, 2},  {16.0f, 2},  {20.0f, 4}, {24.0f, 4},
      {32.0f, 4}, {40.0f, 8}, {48.0f, 8}, {64.0f, 8}, {80.0f, 16}, {96.0f, 16}, {128.0f, 16}}};
 
-/// The layer below each quarter of a pixel.
-std::array<std::uint8_t, 513> make_below() {
-  std::array<std::uint8_t, 513> below{};
-  std::uint8_t layer = 0;
-  for (std::size_t quarter = 0; quarter < below.size(); ++quarter) {
-    while (layer + 2u < layers.size() && layers[layer + 1u].radius_px * 4.0f <= static_cast<float>(quarter)) ++layer;
-    below[quarter] = layer;
-  }
-  return below;
-}
-const std::array<std::uint8_t, 513> layer_below = make_below();
-
 /// The disc of a layer at its own size. A disc of radius r spreads light by r^2 / 4 in each direction (its variance).
 /// Sharing a pixel out between the coarse ones around it spreads it by factor^2 / 6 + 1/12 in the mean, reading between
 /// them by as much again, and the coarse pixel by (factor^2 - 1) / 12 more than a pixel does.
@@ -131,12 +119,17 @@ void add_blurred(const Layer& layer, const Disc& disc, const float* plane, int w
 
 }  // namespace
 
-BlurShare BlurLayers::share(float radius_px) {
-  const float radius = std::min(radius_px, most_radius_px);
-  const int layer = layer_below[static_cast<std::size_t>(radius * 4.0f)];
-  const float low = layers[static_cast<std::size_t>(layer)].radius_px;
-  const float high = layers[static_cast<std::size_t>(layer) + 1].radius_px;
-  return {layer, (radius * radius - low * low) / (high * high - low * low)};
+const std::array<BlurLayers::Step, 513> BlurLayers::steps = make_steps();
+
+std::array<BlurLayers::Step, 513> BlurLayers::make_steps() {
+  std::array<Step, 513> made{};
+  std::size_t layer = 0;
+  for (std::size_t quarter = 0; quarter < made.size(); ++quarter) {
+    while (layer + 2 < layers.size() && layers[layer + 1].radius_px * 4.0f <= static_cast<float>(quarter)) ++layer;
+    const float low = layers[layer].radius_px, high = layers[layer + 1].radius_px;
+    made[quarter] = {static_cast<int>(layer), low * low, 1.0f / (high * high - low * low)};
+  }
+  return made;
 }
 
 BlurLayers::BlurLayers(int width_px, int height_px, int channels, float least_px, float most_px)
