@@ -44,13 +44,13 @@ ProjectorLight::ProjectorLight(const SurfaceMesh& mesh, const ProjectorModel& pr
   raster_ = raster_surfaces(mesh, projector_from_world_, grid_over(projector), nearest_lit_m, stop);
   per_step_ = 1.0 / raster_.grid.step;
   if (stop.stop_requested()) return;
-  mark_smooth();
+  mark_edges();
   mark_blocks();
 }
 
-void ProjectorLight::mark_smooth() {
+void ProjectorLight::mark_edges() {
   const LookGrid& grid = raster_.grid;
-  smooth_.assign(raster_.nearest.size(), 0);
+  nearest_inverse_m_.assign(raster_.nearest.size(), -1.0f);
   tbb::parallel_for(1, std::max(1, grid.height_px - 1), [&](int row) {
     for (int column = 1; column + 1 < grid.width_px; ++column) {
       const std::uint32_t own = raster_.at(column, row);
@@ -64,8 +64,8 @@ void ProjectorLight::mark_smooth() {
         smooth = face != SurfaceRaster::nothing &&
                  std::abs(raster_.faces[face].inverse_depth(look) - inverse_m) <= smooth_share * inverse_m;
       }
-      smooth_[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width_px) +
-              static_cast<std::size_t>(column)] = smooth ? 1 : 0;
+      nearest_inverse_m_[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width_px) +
+                         static_cast<std::size_t>(column)] = static_cast<float>(smooth ? inverse_m : -inverse_m);
     }
   });
 }
@@ -107,7 +107,7 @@ bool ProjectorLight::shadowed_near_edge(const glm::dvec2& tangent, int column, i
   return false;
 }
 
-/// Away from edges the nearest face of the pixel decides, by its plane.
+/// Away from edges the depth found at the pixels around decides.
 bool ProjectorLight::shadowed(const glm::dvec2& tangent, const glm::dvec2& place, double inverse_m,
                               std::uint32_t face) const {
   const LookGrid& grid = raster_.grid;
@@ -116,11 +116,14 @@ bool ProjectorLight::shadowed(const glm::dvec2& tangent, const glm::dvec2& place
   const auto block = static_cast<std::size_t>(row / block_px) * static_cast<std::size_t>(block_columns_) +
                      static_cast<std::size_t>(column / block_px);
   if (sole_[block] == face) return false;
-  const auto at =
-      static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width_px) + static_cast<std::size_t>(column);
-  if (smooth_[at] == 0) return shadowed_near_edge(tangent, column, row, inverse_m, face);
-  const std::uint32_t nearest = raster_.nearest[at];
-  return nearest != face && raster_.faces[nearest].inverse_depth(tangent) > inverse_m * (1.0 + smooth_share);
+  const auto width = static_cast<std::size_t>(grid.width_px);
+  const float* own = &nearest_inverse_m_[static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column)];
+  if (*own < 0.0f) return shadowed_near_edge(tangent, column, row, inverse_m, face);
+  const auto aside_x = static_cast<float>(place.x - column - 0.5), aside_y = static_cast<float>(place.y - row - 0.5);
+  const float slope_x = 0.5f * (std::abs(own[1]) - std::abs(own[-1]));
+  const float slope_y = 0.5f * (std::abs(own[width]) - std::abs(*(own - width)));
+  const double nearest_inverse_m = *own + aside_x * slope_x + aside_y * slope_y;
+  return nearest_inverse_m > inverse_m * (1.0 + smooth_share);
 }
 
 std::optional<glm::dvec2> ProjectorLight::pixel(const glm::dvec3& spot, double scale, std::uint32_t face) const {

@@ -27,16 +27,17 @@ class ProjectorLight {
  private:
   bool shadowed(const glm::dvec2& tangent, const glm::dvec2& place, double inverse_m, std::uint32_t face) const;
   bool shadowed_near_edge(const glm::dvec2& tangent, int column, int row, double inverse_m, std::uint32_t face) const;
-  void mark_smooth();
+  void mark_edges();
   void mark_blocks();
 
   static constexpr int block_px = 8;
 
   ProjectorModel projector_;
   Rigid projector_from_world_;
-  SurfaceRaster raster_;              ///< what is nearest to the projector
-  glm::dvec2 per_step_{1.0};          ///< of its grid
-  std::vector<std::uint8_t> smooth_;  ///< [row][column]: no edge of a shadow within a pixel
+  SurfaceRaster raster_;      ///< what is nearest to the projector
+  glm::dvec2 per_step_{1.0};  ///< of its grid
+  /// [row][column]: 1 / depth of the nearest face; negative where the edge of a shadow lies within a pixel.
+  std::vector<float> nearest_inverse_m_;
   int block_columns_ = 0;
   std::vector<std::uint32_t>
       sole_;  ///< [row][column] of blocks: the face that alone fills a block and its neighbourhood
