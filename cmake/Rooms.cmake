@@ -31,5 +31,5 @@ focalstage_room(devices/runtime USES devices/player devices/sim io/show io/proje
 
 # editor: what people touch
 focalstage_room(editor/cli      USES io/project io/assets io/show io/export io/protocol core/check core/reference
-                                     core/compile core/schedule
+                                     core/compile core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
