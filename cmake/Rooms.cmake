@@ -35,7 +35,7 @@ focalstage_room(devices/runtime USES devices/player devices/sim io/show io/proje
 focalstage_room(editor/samples  USES io/files core/base)
 focalstage_room(editor/pipeline USES io/project io/assets io/show core/check core/reference core/compile core/schedule)
 focalstage_room(editor/cli      USES editor/samples editor/pipeline io/project io/assets io/show io/export io/protocol
-                                     core/check core/reference core/compile core/schedule
+                                     core/check core/reference core/compile core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
 focalstage_room(editor/document USES editor/samples io/journal io/project io/assets io/files core/scene)
 focalstage_room(editor/preview  USES core/check core/compile core/retina core/schedule core/stage)
