@@ -19,7 +19,7 @@ CORE_FORBIDDEN = re.compile(
     r"^(fstream|filesystem|iostream|chrono|ctime|time\.h|stdio_ext\.h|unistd\.h|fcntl\.h|netdb\.h|poll\.h|termios\.h"
     r"|signal\.h|csignal|dlfcn\.h|sys/.*|netinet/.*|arpa/.*|linux/.*|boost/asio.*)$"
 )
-WINDOW_ONLY = re.compile(r"^(imgui|backends/imgui|imconfig|misc/cpp/imgui|vtk|GLFW/|GL/|glad/|EGL/|X11/|epoxy/)")
+WINDOW_ONLY = re.compile(r"^(imgui|backends/imgui|imconfig|misc/cpp/imgui|vtk|GLFW/|GL/|glad/|EGL/|X11/)")
 
 # Headers of a library -> the target that a room must link to see them.
 LIBRARY_OF = [

@@ -2,6 +2,7 @@
 
 #include <imgui.h>
 
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 
 namespace focalstage {
