@@ -9,6 +9,7 @@ focalstage_room(core/optics     USES core/stage core/scene)
 focalstage_room(core/compile    USES core/optics core/stage        PRIVATE_LIBS TBB::tbb)
 focalstage_room(core/reference  USES core/compile core/optics core/stage PRIVATE_LIBS embree TBB::tbb)
 focalstage_room(core/schedule   USES core/optics core/scene)
+focalstage_room(core/retina     USES core/optics core/stage        PRIVATE_LIBS TBB::tbb)
 focalstage_room(core/check      USES core/compile core/schedule core/optics core/scene)
 
 # io: everything that becomes bytes
@@ -35,7 +36,7 @@ focalstage_room(editor/cli      USES editor/samples io/project io/assets io/show
                                      core/compile core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
 focalstage_room(editor/document USES editor/samples io/journal io/project io/assets io/files core/scene)
-focalstage_room(editor/preview  USES core/check core/compile core/schedule core/stage)
+focalstage_room(editor/preview  USES core/check core/compile core/retina core/schedule core/stage)
 focalstage_room(editor/rig      USES io/protocol io/show io/files core/compile core/schedule core/stage)
 focalstage_room(editor/session  USES editor/document editor/preview editor/rig io/export io/image core/reference)
 
