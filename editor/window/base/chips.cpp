@@ -8,11 +8,25 @@
 #include "editor/window/base/theme.h"
 
 namespace focalstage {
+namespace {
+
+float reserved_left_px = 0.0f;
+float reserved_right_px = 0.0f;
+
+}  // namespace
+
+void reserve_top_corners(float left_px, float right_px) {
+  reserved_left_px = left_px;
+  reserved_right_px = right_px;
+}
 
 Chips::Chips(const PaneRect& rect, Corner corner)
     : rect_(rect),
       right_(corner == Corner::top_right || corner == Corner::bottom_right),
-      bottom_(corner == Corner::bottom_left || corner == Corner::bottom_right) {}
+      bottom_(corner == Corner::bottom_left || corner == Corner::bottom_right) {
+  if (corner == Corner::top_left) along_px_ = reserved_left_px;
+  if (corner == Corner::top_right) along_px_ = reserved_right_px;
+}
 
 bool Chips::take(glm::vec2 size, glm::vec2& min) {
   const float margin = px(8);

@@ -36,4 +36,8 @@ class Chips {
   float rows_px_ = 0.0f;
 };
 
+/// What the frame around a pane keeps for itself at the left and right of its top edge (title, fill button): chips of
+/// the top corners stand beside it. Until the next call.
+void reserve_top_corners(float left_px, float right_px);
+
 }  // namespace focalstage
