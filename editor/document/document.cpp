@@ -62,7 +62,15 @@ Document::Document(Project project, fs::path file, bool untitled)
   remember_disk();
 }
 
-void Document::remember_disk() { disk_sha256_ = disk_hash(file_); }
+void Document::remember_disk() {
+  written_ = written(file_);
+  disk_sha256_ = disk_hash(file_);
+}
+
+Document::Written Document::written(const fs::path& file) {
+  std::error_code none;
+  return {fs::last_write_time(file, none), fs::file_size(file, none)};
+}
 
 Result<Document> Document::open(const fs::path& project, const UserFolders& folders) {
   auto loaded = load_project(fs::absolute(project).lexically_normal());
@@ -167,7 +175,13 @@ Status Document::save() {
   return start_journal(folders_);
 }
 
-bool Document::changed_outside() const { return disk_hash(file_) != disk_sha256_; }
+bool Document::changed_outside() const {
+  const Written now = written(file_);
+  if (now == written_) return false;
+  if (disk_hash(file_) != disk_sha256_) return true;
+  written_ = now;  // only touched
+  return false;
+}
 
 void Document::keep_ours() {
   remember_disk();

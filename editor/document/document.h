@@ -84,6 +84,13 @@ class Document {
   std::filesystem::path file_;
   bool untitled_ = false;
   History::Snapshot saved_;  ///< what is on disk; null: nothing the author chose
+  struct Written {
+    std::filesystem::file_time_type when{};
+    std::uintmax_t bytes = 0;
+    bool operator==(const Written&) const = default;
+  };
+  static Written written(const std::filesystem::path& file);
+  mutable Written written_;  ///< when the disk was looked at last and was as `disk_sha256_` says
   std::string disk_sha256_;
   AssetShelf shelf_;
   std::vector<Finding> notes_;

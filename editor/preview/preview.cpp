@@ -38,7 +38,7 @@ struct Preview::State {
 
   mutable std::mutex mutex;
   std::condition_variable arrived;
-  std::optional<PreviewWish> wish;  ///< the newest
+  std::optional<PreviewWish> newest;
   bool pending = false;             ///< the worker has not looked at it yet
   bool working = false;
   bool ending = false;
@@ -62,6 +62,13 @@ struct Preview::State {
   void check_measured(const PreviewWish& wish, const CompiledSlices& compiled);
   void paint(const PreviewWish& wish, std::stop_token stop);
   bool superseded() const;
+
+  /// `clear` may take things away at any time: the worker looks at copies.
+  template <class Shown>
+  Shown copy_of(const Shown& shown) const {
+    const std::lock_guard lock(mutex);
+    return shown;
+  }
 
   template <class Change>
   void publish(Change&& change) {
@@ -111,18 +118,20 @@ bool Preview::State::compile(const PreviewWish& wish, int divisor, std::stop_tok
 }
 
 void Preview::State::check_plan(const PreviewWish& wish) {
-  if (checked && checked->revision == wish.revision) return;
+  const auto before = copy_of(checked);
+  if (before && before->revision == wish.revision) return;
   auto made = std::make_shared<CheckedProject>();
   made->revision = wish.revision;
   made->images = image_plan(*wish.project);
   made->schedule = make_schedule(*wish.project, made->images);
   // Until the frame is measured again, what was measured last still stands for what only measuring can tell.
-  made->findings = checked ? checked->findings : std::vector<Finding>{};
+  if (before) made->findings = before->findings;
   publish([&] { checked = std::move(made); });
 }
 
 void Preview::State::check_measured(const PreviewWish& wish, const CompiledSlices& compiled) {
-  if (checked && checked->revision == wish.revision && checked->measured) return;
+  const auto before = copy_of(checked);
+  if (before && before->revision == wish.revision && before->measured) return;
   auto made = std::make_shared<CheckedProject>();
   made->revision = wish.revision;
   made->measured = true;
@@ -138,11 +147,7 @@ void Preview::State::check_measured(const PreviewWish& wish, const CompiledSlice
 }
 
 void Preview::State::paint(const PreviewWish& wish, std::stop_token stop) {
-  std::shared_ptr<const CompiledSlices> shown;
-  {
-    const std::lock_guard lock(mutex);
-    shown = slices;
-  }
+  const auto shown = copy_of(slices);
   if (!shown || shown->revision != wish.revision || shown->frame != wish.frame) return;
   auto picture = painter.paint(*shown, wish.eye, maker, std::move(stop));
   if (picture) publish([&] { eye = std::make_shared<const EyePicture>(std::move(*picture)); });
@@ -153,7 +158,7 @@ void Preview::State::paint(const PreviewWish& wish, std::stop_token stop) {
 }
 
 void Preview::State::fulfil(const PreviewWish& wish, std::stop_token stop) {
-  std::shared_ptr<const CompiledSlices> shown = slices;  // this thread alone changes it
+  const auto shown = copy_of(slices);
   const bool stands = shown && shown->revision == wish.revision && shown->frame == wish.frame &&
                       shown->stage == wish.stage && (!wish.uncompensated || !shown->uncompensated.codes.empty());
   if (!stands || (shown->divisor > 1 && !wish.moving)) {
@@ -169,7 +174,8 @@ void Preview::State::fulfil(const PreviewWish& wish, std::stop_token stop) {
     }
   }
   paint(wish, {});
-  if (!wish.moving && !superseded() && slices->divisor == 1) check_measured(wish, *slices);
+  const auto exact = copy_of(slices);
+  if (!wish.moving && !superseded() && exact && exact->divisor == 1) check_measured(wish, *exact);
 }
 
 void Preview::State::run() {
@@ -179,7 +185,7 @@ void Preview::State::run() {
   for (;;) {
     arrived.wait(lock, [&] { return pending || ending; });
     if (ending) return;
-    const PreviewWish now = *wish;
+    const PreviewWish now = *newest;
     pending = false;
     working = true;
     whole = std::stop_source();
@@ -213,12 +219,12 @@ Preview::~Preview() {
 
 void Preview::want(PreviewWish wish) {
   const std::lock_guard lock(state_->mutex);
-  if (state_->wish && same_slices(*state_->wish, wish) && state_->wish->moving == wish.moving &&
-      state_->wish->eye == wish.eye && state_->wish->focus_at == wish.focus_at) {
+  if (state_->newest && same_slices(*state_->newest, wish) && state_->newest->moving == wish.moving &&
+      state_->newest->eye == wish.eye && state_->newest->focus_at == wish.focus_at) {
     return;
   }
-  if (!state_->wish || !same_slices(*state_->wish, wish)) state_->whole.request_stop();
-  state_->wish = std::move(wish);
+  if (!state_->newest || !same_slices(*state_->newest, wish)) state_->whole.request_stop();
+  state_->newest = std::move(wish);
   state_->pending = true;
   state_->arrived.notify_one();
 }
@@ -226,7 +232,7 @@ void Preview::want(PreviewWish wish) {
 void Preview::clear() {
   const std::lock_guard lock(state_->mutex);
   state_->whole.request_stop();
-  state_->wish.reset();
+  state_->newest.reset();
   state_->pending = false;
   state_->slices = nullptr;
   state_->checked = nullptr;
