@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace focalstage {
@@ -112,6 +113,7 @@ void GlfwWindow::install_callbacks() {
   glfwSetDropCallback(handle_, [](GLFWwindow* handle, int count, const char** paths) {
     window_of(handle).input_.drop({paths, paths + count});
   });
+  glfwSetWindowRefreshCallback(handle_, [](GLFWwindow* handle) { window_of(handle).exposed_ = true; });
   glfwSetWindowFocusCallback(handle_, [](GLFWwindow* handle, int focused) {
     if (focused == GLFW_FALSE) window_of(handle).input_.leave();
   });
@@ -160,6 +162,8 @@ bool GlfwWindow::take_close() {
   glfwSetWindowShouldClose(handle_, GLFW_FALSE);
   return asked;
 }
+
+bool GlfwWindow::take_exposed() { return std::exchange(exposed_, false); }
 
 void GlfwWindow::swap() { glfwSwapBuffers(handle_); }
 
