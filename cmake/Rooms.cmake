@@ -37,7 +37,7 @@ focalstage_room(editor/cli      USES editor/samples io/project io/assets io/show
 focalstage_room(editor/document USES editor/samples io/journal io/project io/assets io/files core/scene)
 focalstage_room(editor/preview  USES core/check core/compile core/schedule core/stage)
 focalstage_room(editor/rig      USES io/protocol io/show io/files core/compile core/schedule core/stage)
-focalstage_room(editor/tools    USES core/stage core/optics core/scene core/mesh)
+focalstage_room(editor/tools    USES core/compile core/stage core/optics core/scene core/mesh)
 focalstage_room(editor/session  USES editor/tools editor/document editor/preview editor/rig io/export io/image core/reference)
 
 # the window: GLFW, Dear ImGui and VTK live here and nowhere else

@@ -11,6 +11,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "editor/tools/fixed_text.h"
+#include "editor/tools/nearest_on_line.h"
 
 namespace focalstage {
 namespace {
@@ -37,19 +38,6 @@ std::vector<glm::dvec3> axes_of(const HandleDrag& drag) {
 glm::dvec3 axis_of_turn(const HandleDrag& drag) {
   const std::optional<std::size_t> axis = axis_of(drag.handle);
   return axis ? drag.frame.axes[*axis] : drag.view.world_from_camera.direction({0.0, 0.0, 1.0});
-}
-
-/// Where the pointer stands along an axis through the frame's origin: the axis' point nearest to its ray. None where
-/// the ray comes no nearer to the axis in front of the camera.
-std::optional<double> along_axis_m(const HandleDrag& drag, const glm::dvec3& axis, const glm::dvec2& pixel) {
-  const Ray ray = ray_through(drag.view, pixel);
-  const glm::dvec3 between = ray.origin_m - drag.frame.origin_m;
-  const double cosine = glm::dot(axis, ray.direction);
-  const double square_sine = 1.0 - cosine * cosine;
-  if (square_sine < 1e-8) return std::nullopt;
-  const double on_ray_m = (cosine * glm::dot(axis, between) - glm::dot(ray.direction, between)) / square_sine;
-  if (on_ray_m <= 0.0) return std::nullopt;
-  return (glm::dot(axis, between) - cosine * glm::dot(ray.direction, between)) / square_sine;
 }
 
 /// Where the pointer's ray meets the plane through the frame's origin, from that origin.
@@ -89,7 +77,9 @@ double snapped(double amount, double from, double step) {
 std::vector<double> moved_m(const HandleDrag& drag, const glm::dvec2& pixel) {
   const std::vector<glm::dvec3> axes = axes_of(drag);
   if (axes.size() == 1) {
-    const auto at = [&](const glm::dvec2& p) { return along_axis_m(drag, axes[0], p); };
+    const auto at = [&](const glm::dvec2& p) {
+      return nearest_on_line_m({drag.frame.origin_m, axes[0]}, ray_through(drag.view, p));
+    };
     const auto from = at(drag.start_px);
     const auto to = before_horizon(drag, pixel, at);
     return {from && to ? *to - *from : 0.0};
