@@ -65,7 +65,6 @@ Result<Measured> write_frames(const CompileJob& job, FrameRange range, FrameMake
   for (int k = 0; k < report.frames; ++k) {
     if (stop.stop_requested()) return cancelled(job);
     if (Status stood = maker.stand_up(range.begin + k); !stood) return stood.fault();
-    measured.coverage.push_back(maker.coverage());
     if (writer.has_frame(k)) {
       ++report.resumed;
     } else {
@@ -73,6 +72,7 @@ Result<Measured> write_frames(const CompileJob& job, FrameRange range, FrameMake
       if (!made) return stop.stop_requested() ? cancelled(job) : made.fault();
       if (Status added = sink.add(k, *made); !added) return added.fault();
     }
+    measured.coverage.push_back(maker.coverage());
     progress(k + 1, report.frames);
   }
   if (Status drained = sink.drain(); !drained) return drained.fault();

@@ -19,32 +19,29 @@ FrameMaker::FrameMaker(const Source& source, EngineChoice choice)
     : source_(source),
       choice_(choice),
       settings_(compile_settings(source.project)),
-      compiler_(settings_, choice.threads, choice.vectors) {}
+      compiler_(settings_, choice.threads, choice.vectors),
+      meter_(settings_.projector, settings_.lens_to_pupil_m, source.project.glasses.lens_aperture_mm / 1000.0) {}
 
 Status FrameMaker::stand_up(int frame) {
   auto staged = stage(source_.project, source_.loaded.assets, frame / source_.project.frames.rate_hz);
   if (!staged) return staged.fault();
   if (stage_ && same_room(*stage_, *staged)) return {};
-  stage_ = std::move(*staged);
-  coverage_.reset();
+  coverage_ = {};  // waits for one that still looks at the stage
   made_.reset();
+  stage_ = std::move(*staged);
+  const auto how = choice_.threads == 1 ? std::launch::deferred : std::launch::async;
+  coverage_ = std::async(how, [this] { return meter_.measure(*stage_); }).share();
   return {};
 }
 
-const std::vector<ObjectCoverage>& FrameMaker::coverage() {
-  if (!coverage_) {
-    const double aperture_m = source_.project.glasses.lens_aperture_mm / 1000.0;
-    coverage_ = measure_coverage(*stage_, settings_.projector, settings_.lens_to_pupil_m, aperture_m);
-  }
-  return *coverage_;
-}
+const std::vector<ObjectCoverage>& FrameMaker::coverage() { return coverage_.get(); }
 
 Result<FrameMaker::Made> FrameMaker::compile(std::stop_token stop) {
   if (made_) return *made_;
   auto compiled = choice_.reference ? compile_reference(*stage_, settings_, choice_.threads)
-                                    : compiler_.frame(*stage_, std::move(stop));
+                                    : compiler_.frame(*stage_, std::move(stop), pool_.take());
   if (!compiled) return compiled.fault();
-  made_ = Made{std::make_shared<const FrameImages>(std::move(compiled->images)), std::move(compiled->measure)};
+  made_ = Made{pool_.share(std::move(compiled->images)), std::move(compiled->measure)};
   return *made_;
 }
 

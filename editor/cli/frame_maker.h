@@ -1,5 +1,6 @@
 #pragma once
 
+#include <future>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -9,6 +10,7 @@
 #include "core/compile/compile.h"
 #include "core/compile/coverage.h"
 #include "core/stage/stage.h"
+#include "editor/cli/image_pool.h"
 #include "editor/cli/source.h"
 
 namespace focalstage {
@@ -25,12 +27,15 @@ struct EngineChoice {
 class FrameMaker {
  public:
   FrameMaker(const Source& source, EngineChoice choice);
+  FrameMaker(const FrameMaker&) = delete;  // a measurement under way works with this one
+  FrameMaker& operator=(const FrameMaker&) = delete;
 
   const CompileSettings& settings() const { return settings_; }
 
   /// Stands up frame `frame` of the project; the other calls are about it.
   Status stand_up(int frame);
 
+  /// Measured beside whoever compiles the frame, unless one thread must do.
   const std::vector<ObjectCoverage>& coverage();
 
   struct Made {
@@ -44,9 +49,11 @@ class FrameMaker {
   EngineChoice choice_;
   CompileSettings settings_;
   Compiler compiler_;
+  CoverageMeter meter_;
+  ImagePool pool_;
   std::optional<Stage> stage_;
-  std::optional<std::vector<ObjectCoverage>> coverage_;
   std::optional<Made> made_;
+  std::shared_future<std::vector<ObjectCoverage>> coverage_;  ///< last: it works with all that stands above
 };
 
 }  // namespace focalstage

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "core/base/result.h"
@@ -66,6 +67,17 @@ struct EyeWish {
   bool operator==(const EyeWish&) const = default;
 };
 
+/// "Focus here": at which accommodation is what the eye's picture shows at `at` (0..1 from its top left corner) sharp?
+struct FocusQuestion {
+  int serial = 0;
+  glm::dvec2 at{0.5};
+  bool operator==(const FocusQuestion&) const = default;
+};
+struct FocusAnswer {
+  int serial = 0;
+  double focus_d = 0.0;
+};
+
 /// What the preview is to show: the newest wish is the only one.
 struct PreviewWish {
   std::uint64_t revision = 0;
@@ -75,6 +87,7 @@ struct PreviewWish {
   bool moving = false;  ///< a hand is still at it: reduced size is enough
   bool uncompensated = false;
   EyeWish eye;
+  std::optional<FocusQuestion> focus_at;
 };
 
 }  // namespace focalstage

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -26,6 +27,8 @@ namespace focalstage {
 /// Whatever a person does becomes a command (`run`) or an edit (`edit`, `drag`); panels and views read the rest.
 class Session {
  public:
+  struct State;  ///< editor/session/session_state.h; for the commands of this room
+
   /// `wake`: called from any thread when something arrived and `update` should be called.
   explicit Session(std::function<void()> wake);
   ~Session();
@@ -62,7 +65,13 @@ class Session {
   std::shared_ptr<const CheckedProject> checked() const;  ///< null: none yet
   std::shared_ptr<const EyePicture> eye_picture() const;  ///< null: none yet
   void want_eye_size(int width_px, int height_px);
+  /// "Focus here": at a place of the eye's picture, 0..1 from its top left corner. `view().focus_d` follows.
+  void focus_at(glm::dvec2 at);
   bool compiling() const;
+  /// Why the newest revision could not be compiled, if it could not.
+  std::optional<Fault> compile_fault() const;
+  /// Everything wrong with the project, what cannot be read of its files included.
+  std::vector<Finding> findings() const;
 
   const RigLink& rig() const;
   const Log& log() const;
@@ -73,10 +82,20 @@ class Session {
   void dismiss_notice();
 
   /// What must be asked before going on ("unsaved edits"), if anything.
-  const std::optional<Question>& question() const;
+  const Question* question() const;
   void answer(std::size_t choice);
 
+  // The start screen's.
+  const std::vector<std::filesystem::path>& recent() const;
+  const std::vector<Recovery>& left_behind() const;
+
+  bool palette_open() const;
+  void close_palette();
   bool wants_to_quit() const;
+
+  /// A path to be asked for; `run` its command ("file.open", "file.save-as", "file.import") with it, or forget it.
+  FileWish file_wish() const;
+  void forget_file_wish();
 
   // The loop ----------------------------------------------------------------------------------------------------------
 
@@ -90,7 +109,6 @@ class Session {
   Value described() const;
 
  private:
-  struct State;
   std::unique_ptr<State> state_;
   friend struct SessionAccess;  ///< commands reach the state through editor/session/session_access.h
 };

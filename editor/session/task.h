@@ -20,4 +20,7 @@ struct Question {
   std::vector<std::string> choices;
 };
 
+/// A path that a command needs and the window is to ask for.
+enum class FileWish { none, open, save_as, import_mesh };
+
 }  // namespace focalstage

@@ -49,6 +49,8 @@ RigState state() {
   state.holder = "anna:1";
   state.frame = 12;
   state.late_sweeps = 4;
+  state.revision = 1ull << 53;
+  state.temperatures = {{"left lens", 31.5}, {"projector", 44.0}};
   state.lateness = {{50.0, 10}, {std::numeric_limits<double>::infinity(), 2}};
   return state;
 }
