@@ -43,7 +43,8 @@ focalstage_room(editor/tools    USES core/compile core/stage core/optics core/sc
 focalstage_room(editor/session  USES editor/tools editor/document editor/preview editor/rig io/export io/image core/reference)
 
 # the window: GLFW, Dear ImGui and VTK live here and nowhere else
-focalstage_room(editor/window/base   USES editor/session)
+focalstage_room(editor/window/base   USES editor/session           LIBS imgui::imgui vtk::vtk PRIVATE_LIBS epoxy::epoxy)
 focalstage_room(editor/window/views  USES editor/window/base)
 focalstage_room(editor/window/panels USES editor/window/base)
-focalstage_room(editor/window/app    USES editor/window/views editor/window/panels)
+focalstage_room(editor/window/app    USES editor/window/views editor/window/panels
+                                     PRIVATE_LIBS glfw::glfw epoxy::epoxy CLI11::CLI11)
