@@ -158,7 +158,7 @@ TEST_CASE("a drag is one step, and shows slices meanwhile") {
   for (int i = 1; i <= 20; ++i) {
     Rigid pose = pose_of(before, rabbit, 0.0);
     pose.position_m.x += 0.002 * i;
-    REQUIRE(session.drag("Move rabbit", pose_edits(session.project(), rabbit, pose, 0.0)).ok());
+    REQUIRE(session.drag("Move rabbit", {set_edit(rabbit, "position_m", value_of(pose.position_m))}).ok());
     REQUIRE(wait(session, [&] { return session.slices() && session.slices()->revision == session.revision(); }));
   }
   session.end_drag();
