@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include "editor/cli/source.h"
+#include "editor/pipeline/source.h"
 
 namespace focalstage {
 namespace {
