@@ -33,6 +33,7 @@ Session::State::State(std::function<void()> wake_up, UserFolders user_folders)
       recent(recent_projects(folders)),
       left_behind(recoveries(folders, recent)),
       preview(wake_up),
+      reader(wake_up),
       rig(wake_up, folders.state),
       jobs(wake_up) {}
 
@@ -244,6 +245,8 @@ void Session::focus_at(glm::dvec2 at) {
   state_->wish_preview();
 }
 
+void Session::read_pixel(Side side, glm::ivec2 pixel) { state_->reader.ask(slices(), side, pixel); }
+std::shared_ptr<const PixelReading> Session::pixel_reading() const { return state_->reader.answer(); }
 bool Session::compiling() const { return state_->preview.busy(); }
 std::optional<Fault> Session::compile_fault() const { return state_->preview.fault(); }
 const RigLink& Session::rig() const { return state_->rig; }
