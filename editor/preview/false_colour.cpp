@@ -31,7 +31,8 @@ std::vector<std::uint8_t> assignment_picture(const CompiledSlices& compiled, Sid
                      static_cast<std::size_t>(spec.slice) < slice_colours.size();
     if (!own) continue;
     const glm::dvec3 colour = slice_colours[static_cast<std::size_t>(spec.slice)] / full;
-    for (std::size_t p = 0; p < pixels; ++p) light[p] += colour * double(brightest(images.image(i), p, images.channels));
+    for (std::size_t p = 0; p < pixels; ++p)
+      light[p] += colour * double(brightest(images.image(i), p, images.channels));
   }
   std::vector<std::uint8_t> rgb(pixels * 3);
   for (std::size_t p = 0; p < pixels; ++p) {

@@ -11,8 +11,8 @@
 
 namespace focalstage {
 
-/// Which slices light each pixel for one eye: the slices' colours (`colour_of`, by the slice's index in the project, 0..1)
-/// weighted by the light each gives. Rows from the top, three codes a pixel.
+/// Which slices light each pixel for one eye: the slices' colours (`colour_of`, by the slice's index in the project,
+/// 0..1) weighted by the light each gives. Rows from the top, three codes a pixel.
 std::vector<std::uint8_t> assignment_picture(const CompiledSlices& compiled, Side side,
                                              std::span<const glm::dvec3> slice_colours);
 

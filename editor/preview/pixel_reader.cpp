@@ -20,9 +20,9 @@ struct Question {
 
 int code_at(const FrameImages& images, std::size_t image, glm::ivec2 pixel) {
   const auto channels = static_cast<std::size_t>(images.channels);
-  const std::size_t at =
-      (static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(images.width_px) + static_cast<std::size_t>(pixel.x)) *
-      channels;
+  const std::size_t at = (static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(images.width_px) +
+                          static_cast<std::size_t>(pixel.x)) *
+                         channels;
   const auto codes = images.image(image).subspan(at, channels);
   return *std::max_element(codes.begin(), codes.end());
 }

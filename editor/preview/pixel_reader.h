@@ -25,11 +25,11 @@ struct SliceReading {
 
 /// Everything about one pixel of the projector, for one eye.
 struct PixelReading {
-  glm::ivec2 pixel{0};          ///< of the full-size image
-  std::string surface;          ///< that it lights; empty: none, and nothing else is known
-  glm::dvec3 point_m{0.0};      ///< where, in the world
-  bool seen = false;            ///< by the eye: no other surface hides it
-  double surface_m = 0.0;       ///< d_p: axial, from the lens centre
+  glm::ivec2 pixel{0};      ///< of the full-size image
+  std::string surface;      ///< that it lights; empty: none, and nothing else is known
+  glm::dvec3 point_m{0.0};  ///< where, in the world
+  bool seen = false;        ///< by the eye: no other surface hides it
+  double surface_m = 0.0;   ///< d_p: axial, from the lens centre
   std::vector<SliceReading> slices;
 };
 

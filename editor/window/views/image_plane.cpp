@@ -80,7 +80,8 @@ void ImagePlane::set(glm::ivec2 size_px, int channels, std::span<const std::uint
   }
   auto* rows = static_cast<std::uint8_t*>(image.GetScalarPointer());
   for (int y = 0; y < size_px.y; ++y) {
-    std::memcpy(rows + row * static_cast<std::size_t>(size_px.y - 1 - y), codes.data() + row * static_cast<std::size_t>(y), row);
+    std::memcpy(rows + row * static_cast<std::size_t>(size_px.y - 1 - y),
+                codes.data() + row * static_cast<std::size_t>(y), row);
   }
   image.Modified();
 }

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include <fmt/format.h>
-
+#include "editor/tools/fixed_text.h"
 #include "editor/window/base/fonts.h"
 #include "editor/window/base/im.h"
 #include "editor/window/base/theme.h"
@@ -12,48 +11,41 @@
 
 namespace focalstage {
 
-std::string fixed(double value, int digits, bool sign) {
-  // Minus zero is nobody's number.
-  const std::string plain = fmt::format("{:.{}f}", value, digits);
-  const bool zero = plain.find_first_not_of("-0.") == std::string::npos;
-  if (zero) return fmt::format("{:.{}f}", 0.0, digits);
-  return sign && value > 0.0 ? "+" + plain : plain;
-}
-
 std::string image_words(const ImageSpec& spec) {
-  constexpr std::array<const char*, 3> eyes{"left eye", "right eye", "both eyes"};
-  const char* eye = eyes[static_cast<std::size_t>(spec.eye)];
-  const std::string power = fixed(spec.power_d, 2, true) + " D";
-  if (spec.kind == ImageKind::surface_light) return fmt::format("{}, {}, surface light", eye, power);
-  if (spec.kind == ImageKind::content_and_light) return fmt::format("{}, {}, with surface light", eye, power);
-  return fmt::format("{}, {}", eye, power);
+  constexpr std::array<const char*, 3> eyes{"left eye, ", "right eye, ", "both eyes, "};
+  std::string words = eyes[static_cast<std::size_t>(spec.eye)] + signed_text(spec.power_d, 2) + " D";
+  if (spec.kind == ImageKind::surface_light) words += ", surface light";
+  if (spec.kind == ImageKind::content_and_light) words += ", with surface light";
+  return words;
 }
 
 std::string slot_label(const Slot& slot) {
-  return fmt::format("{} {}", slot.eye == Side::left ? "L" : "R", fixed(slot.power_d, 2, true));
+  return (slot.eye == Side::left ? "L " : "R ") + signed_text(slot.power_d, 2);
 }
 
 std::string slot_words(const Slot& slot) {
-  return fmt::format("{} eye, {} D, from {} ms for {} ms; trigger at {} ms", slot.eye == Side::left ? "left" : "right",
-                     fixed(slot.power_d, 2, true), fixed(slot.start_s * 1e3, 2), fixed(slot.exposure_s * 1e3, 2),
-                     fixed(slot.trigger_s * 1e3, 2));
+  return std::string(slot.eye == Side::left ? "left" : "right") + " eye, " + signed_text(slot.power_d, 2) +
+         " D, from " + fixed_text(slot.start_s * 1e3, 2) + " ms for " + fixed_text(slot.exposure_s * 1e3, 2) +
+         " ms; trigger at " + fixed_text(slot.trigger_s * 1e3, 2) + " ms";
 }
 
-std::string pixel_words(glm::ivec2 pixel) { return fmt::format("pixel {}, {}", pixel.x, pixel.y); }
+std::string pixel_words(glm::ivec2 pixel) {
+  return "pixel " + std::to_string(pixel.x) + ", " + std::to_string(pixel.y);
+}
 
 std::string point_words(const PixelReading& reading) {
-  const std::string place = fmt::format("{} at {}, {}, {} m", reading.surface, fixed(reading.point_m.x, 3),
-                                        fixed(reading.point_m.y, 3), fixed(reading.point_m.z, 3));
-  if (!reading.seen) return place;
-  return place + fmt::format(", {} m from the lens ({} D)", fixed(reading.surface_m, 3), fixed(1.0 / reading.surface_m, 2));
+  std::string words = reading.surface + " at " + fixed_text(reading.point_m.x, 3) + ", " +
+                      fixed_text(reading.point_m.y, 3) + ", " + fixed_text(reading.point_m.z, 3) + " m";
+  if (!reading.seen) return words;
+  return words + "; " + fixed_text(reading.surface_m, 3) + " m from the lens (" +
+         fixed_text(1.0 / reading.surface_m, 2) + " D)";
 }
 
 std::string slice_words(const SliceReading& slice) {
-  std::string words = fmt::format("{:>6} D   code {:>3}", fixed(slice.power_d, 2, true), slice.code);
-  if (!slice.object.empty()) {
-    words += fmt::format("   {}: wants {} D, weight {}", slice.object, fixed(slice.wanted_d, 2, true), fixed(slice.weight, 2));
-  }
-  return words;
+  std::string words = signed_text(slice.power_d, 2) + " D: code " + std::to_string(slice.code);
+  if (slice.object.empty()) return words;
+  return words + "; " + slice.object + " wants " + signed_text(slice.wanted_d, 2) + " D, weight " +
+         fixed_text(slice.weight, 2);
 }
 
 void draw_hint(const PaneRect& rect, std::string_view words) {

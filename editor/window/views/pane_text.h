@@ -17,9 +17,6 @@ struct ImDrawList;
 
 namespace focalstage {
 
-/// "-0.50", with a sign where `sign`.
-std::string fixed(double value, int digits, bool sign = false);
-
 /// "left, -0.50 D", "surface light, 0.00 D"
 std::string image_words(const ImageSpec& spec);
 /// "L -0.5"

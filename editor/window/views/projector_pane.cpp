@@ -6,6 +6,7 @@
 #include "core/optics/image_plan.h"
 #include "editor/preview/false_colour.h"
 #include "editor/session/session.h"
+#include "editor/tools/fixed_text.h"
 #include "editor/tools/slice_tint.h"
 #include "editor/window/base/chips.h"
 #include "editor/window/base/im.h"
@@ -56,9 +57,12 @@ ProjectorPane::Shown ProjectorPane::wanted(const Session& session, glm::ivec2 si
   const auto slices = session.slices();
   const ViewState& view = session.view();
   const glm::ivec2 area_px(size_px.x, size_px.y - static_cast<int>(strip_height({{}, glm::vec2(size_px)})));
-  return {slices.get(),      slices ? static_cast<int>(image_of(*slices, view)) : 0,
-          view.side,         view.picture,
-          view.compensation, placement(session, glm::dvec2(area_px)),
+  return {slices.get(),
+          slices ? static_cast<int>(image_of(*slices, view)) : 0,
+          view.side,
+          view.picture,
+          view.compensation,
+          placement(session, glm::dvec2(area_px)),
           area_px};
 }
 
@@ -135,14 +139,15 @@ void ProjectorPane::draw_chips(Session& session, const PaneRect& area) {
   if (view.zoom > 0.0) {
     ButtonStyle fit{.icon = "fill"};
     fit.tip = {"The whole image again", {}, {}};
-    if (bottom.button("fit", fixed(view.zoom, 1) + "x", fit)) view.zoom = 0.0;
+    if (bottom.button("fit", fixed_text(view.zoom, 1) + "x", fit)) view.zoom = 0.0;
   }
 }
 
 void ProjectorPane::answer_mouse(Session& session, const PaneRect& area) {
   ImGui::SetCursorScreenPos(to_im(area.min));
-  ImGui::InvisibleButton("image", to_im(area.size), ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
-                                                        ImGuiButtonFlags_MouseButtonRight);
+  ImGui::InvisibleButton(
+      "image", to_im(area.size),
+      ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
   ImGui::SetItemAllowOverlap();
   see_last_item("image");
   const auto slices = session.slices();
@@ -222,8 +227,8 @@ void ProjectorPane::draw_strip(Session& session, const PaneRect& rect) {
     }
     see_last_item(name);
     tip_for_last_item({slot_words(slots[s]), {}, {}});
-    const bool chosen = session.view().picture == ProjectorPicture::slice && image == image_of(*slices, session.view()) &&
-                        slots[s].eye == session.view().side;
+    const bool chosen = session.view().picture == ProjectorPicture::slice &&
+                        image == image_of(*slices, session.view()) && slots[s].eye == session.view().side;
     const std::uint32_t frame = chosen ? theme::accent : ImGui::IsItemHovered() ? theme::dim : theme::line;
     list.AddRect(to_im(min), to_im(min + size), frame, 0.0f, 0, px(chosen ? 2 : 1));
     small_text(list, {min.x, min.y + size.y + px(2)}, slot_label(slots[s]), chosen ? theme::text : theme::dim, width);
