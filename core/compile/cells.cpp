@@ -9,26 +9,22 @@
 namespace focalstage {
 namespace {
 
-constexpr int bands = 16;  ///< of rows, filled independently; fixed, so that the order never depends on the machine
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// The cells that a triangle's box touches.
-struct Span {
-  int first_column, last_column, first_row, last_row;
-
-  int cells() const { return (last_column - first_column + 1) * (last_row - first_row + 1); }
-};
-
-Span span_of(const CellGrid& grid, const Box& box) {
+CellSpan span_of(const CellGrid& grid, const Box& box) {
   return {column_of(grid, box.min_x), column_of(grid, box.max_x), row_of(grid, box.min_y), row_of(grid, box.max_y)};
 }
+
+/// Band i has the rows from first_row_of(i) to before first_row_of(i + 1).
+int first_row_of(int band, int rows) { return rows * band / cell_bands; }
+int band_of(int row, int rows) { return ((row + 1) * cell_bands - 1) / rows; }
 
 struct Range {
   double low, high;
 };
 
 /// Range of a triangle's inverse depth over a rectangle, within its own range.
-Range inverse_depth_over(const ViewTriangle& triangle, const TriangleBounds& bounds, const Box& box) {
+Range inverse_depth_over(const ViewTriangle& triangle, const ViewBounds& bounds, const Box& box) {
   const double centre_x = 0.5 * (static_cast<double>(box.min_x) + box.max_x);
   const double centre_y = 0.5 * (static_cast<double>(box.min_y) + box.max_y);
   const double reach = 0.5 * (std::abs(triangle.a[3]) * (static_cast<double>(box.max_x) - box.min_x) +
@@ -69,12 +65,6 @@ class Wants {
   double lens_to_pupil_m_;
 };
 
-/// A triangle in the cells: where, and what it wants as a whole.
-struct Entry {
-  Span span;
-  CellContent content;
-};
-
 constexpr int coarse_cells = 4;  ///< a triangle in more cells is bounded in each of them apart
 
 /// The cells of some rows, with offsets from the band's own start.
@@ -83,27 +73,23 @@ struct Band {
   std::vector<std::uint32_t> items;
 };
 
-template <class Visit>
-void each_triangle(const ViewTriangles& view, const Visit& visit) {
-  for (const ViewTriangles::Run& run : view.runs) {
-    for (std::uint32_t i = run.first; i < run.first + run.count; ++i) visit(i);
-  }
-}
-
-Band fill_band(const CellGrid& grid, const ViewTriangles& view, const std::vector<Entry>& entries, int first_row,
-               int end_row) {
+Band fill_band(const Cells& cells, int which) {
+  const int columns = cells.grid.columns;
+  const int first_row = first_row_of(which, cells.grid.rows);
+  const int end_row = first_row_of(which + 1, cells.grid.rows);
   Band band;
-  const int columns = grid.columns;
   band.begin.assign(static_cast<std::size_t>((end_row - first_row) * columns) + 1, 0);
   const auto each_cell = [&](const auto& visit) {
-    each_triangle(view, [&](std::uint32_t i) {
-      const Span& span = entries[i].span;
-      for (int row = std::max(span.first_row, first_row); row <= std::min(span.last_row, end_row - 1); ++row) {
-        for (int column = span.first_column; column <= span.last_column; ++column) {
-          visit(static_cast<std::size_t>((row - first_row) * columns + column), i);
+    for (const auto& run : cells.of_band) {
+      for (const std::uint32_t i : run[static_cast<std::size_t>(which)]) {
+        const CellSpan& span = cells.spans[i];
+        for (int row = std::max(span.first_row, first_row); row <= std::min(span.last_row, end_row - 1); ++row) {
+          for (int column = span.first_column; column <= span.last_column; ++column) {
+            visit(static_cast<std::size_t>((row - first_row) * columns + column), i);
+          }
         }
       }
-    });
+    }
   };
   each_cell([&](std::size_t cell, std::uint32_t) { ++band.begin[cell + 1]; });
   for (std::size_t i = 1; i < band.begin.size(); ++i) band.begin[i] += band.begin[i - 1];
@@ -111,6 +97,24 @@ Band fill_band(const CellGrid& grid, const ViewTriangles& view, const std::vecto
   std::vector<std::uint32_t> next(band.begin.begin(), band.begin.end() - 1);
   each_cell([&](std::size_t cell, std::uint32_t i) { band.items[next[cell]++] = i; });
   return band;
+}
+
+/// Which cells the triangles of each run touch, and in which bands those are.
+void place_runs(Cells& cells, const ViewTriangles& view) {
+  cells.spans.resize(std::max(cells.spans.size(), view.bounds.size()));
+  cells.of_band.resize(view.runs.size());
+  tbb::parallel_for(std::size_t{0}, view.runs.size(), [&](std::size_t run) {
+    auto& of_band = cells.of_band[run];
+    for (auto& triangles : of_band) triangles.clear();
+    for (std::uint32_t i = view.runs[run].first; i < view.runs[run].first + view.runs[run].count; ++i) {
+      const CellSpan span = span_of(cells.grid, view.bounds[i].box);
+      const int last = band_of(span.last_row, cells.grid.rows);
+      for (int band = band_of(span.first_row, cells.grid.rows); band <= last; ++band) {
+        of_band[static_cast<std::size_t>(band)].push_back(i);
+      }
+      cells.spans[i] = span;
+    }
+  });
 }
 
 void join(Cells& cells, const std::vector<Band>& filled) {
@@ -123,7 +127,18 @@ void join(Cells& cells, const std::vector<Band>& filled) {
   }
 }
 
-void measure_content(Cells& cells, const ViewTriangles& view, const std::vector<Entry>& entries, const Wants& wants) {
+/// What the triangles of each run want as a whole.
+void ask_triangles(Cells& cells, const ViewTriangles& view, const Wants& wants) {
+  cells.wants.resize(std::max(cells.wants.size(), view.bounds.size()));
+  tbb::parallel_for(std::size_t{0}, view.runs.size(), [&](std::size_t run) {
+    for (std::uint32_t i = view.runs[run].first; i < view.runs[run].first + view.runs[run].count; ++i) {
+      cells.wants[i] = wants.of(view.triangles[i], {view.bounds[i].min_inverse_m, view.bounds[i].max_inverse_m});
+    }
+  });
+}
+
+void measure_content(Cells& cells, const ViewTriangles& view, const Wants& wants) {
+  ask_triangles(cells, view, wants);
   const CellGrid& grid = cells.grid;
   cells.content.assign(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows), nothing_wanted);
   tbb::parallel_for(0, grid.rows, [&](int row) {
@@ -131,9 +146,8 @@ void measure_content(Cells& cells, const ViewTriangles& view, const std::vector<
       const auto cell = static_cast<std::size_t>(row * grid.columns + column);
       for (std::uint32_t i = cells.begin[cell]; i < cells.begin[cell + 1]; ++i) {
         const std::uint32_t at = cells.items[i];
-        const Entry& entry = entries[at];
-        if (entry.span.cells() <= coarse_cells) {
-          cells.content[cell].add(entry.content);
+        if (cells.spans[at].cells() <= coarse_cells) {
+          cells.content[cell].add(cells.wants[at]);
           continue;
         }
         const Box part = part_in_cell(grid, view.bounds[at].box, column, row);
@@ -150,23 +164,12 @@ void sort_into_cells(Cells& cells, const ViewTriangles& view, const Box& bounds,
                      const std::vector<VergenceRule>& rules, double lens_to_pupil_m) {
   cells.grid = {bounds, columns, rows, static_cast<float>(columns) / std::max(bounds.max_x - bounds.min_x, 1e-12f),
                 static_cast<float>(rows) / std::max(bounds.max_y - bounds.min_y, 1e-12f)};
-  const Wants wants(rules, lens_to_pupil_m);
-  std::vector<Entry> entries(view.bounds.size());
-  tbb::parallel_for(std::size_t{0}, view.runs.size(), [&](std::size_t run) {
-    for (std::uint32_t i = view.runs[run].first; i < view.runs[run].first + view.runs[run].count; ++i) {
-      const TriangleBounds& of = view.bounds[i];
-      entries[i].span = span_of(cells.grid, of.box);
-      if (!rules.empty()) entries[i].content = wants.of(view.triangles[i], {of.min_inverse_m, of.max_inverse_m});
-    }
-  });
-  std::vector<Band> filled(bands);
-  tbb::parallel_for(0, bands, [&](int i) {
-    filled[static_cast<std::size_t>(i)] =
-        fill_band(cells.grid, view, entries, rows * i / bands, rows * (i + 1) / bands);
-  });
+  place_runs(cells, view);
+  std::vector<Band> filled(cell_bands);
+  tbb::parallel_for(0, cell_bands, [&](int i) { filled[static_cast<std::size_t>(i)] = fill_band(cells, i); });
   join(cells, filled);
   cells.content.clear();
-  if (!rules.empty()) measure_content(cells, view, entries, wants);
+  if (!rules.empty()) measure_content(cells, view, Wants(rules, lens_to_pupil_m));
 }
 
 }  // namespace focalstage

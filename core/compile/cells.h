@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -56,12 +57,27 @@ static inline int row_of(const CellGrid& grid, float y) {
   return clamped_cell((y - grid.bounds.min_y) * grid.per_y, grid.rows);
 }
 
+/// The cells that a triangle's box touches.
+struct CellSpan {
+  int first_column, last_column, first_row, last_row;
+
+  int cells() const { return (last_column - first_column + 1) * (last_row - first_row + 1); }
+};
+
+/// Bands of rows are filled independently; their number is fixed, so that the order never depends on the machine.
+inline constexpr int cell_bands = 16;
+
 /// The triangles of a view, sorted into the cells that their boxes touch.
 struct Cells {
   CellGrid grid;
   std::vector<std::uint32_t> begin;  ///< [rows * columns + 1] into `items`
   std::vector<std::uint32_t> items;  ///< indices of triangles, ascending within a cell
   std::vector<CellContent> content;  ///< per cell; only where rules were given
+
+  // Memory to work in: of each triangle its span and what it wants as a whole; of each run the triangles of each band.
+  std::vector<CellSpan> spans;
+  std::vector<CellContent> wants;
+  std::vector<std::array<std::vector<std::uint32_t>, cell_bands>> of_band;
 };
 
 /// Sorts `view` into `columns` x `rows` cells. `rules` (one per drawable, may be empty) adds what each cell can want.

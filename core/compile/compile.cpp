@@ -21,10 +21,12 @@ namespace {
 /// Which meshes are solid, asked once per mesh that stays on stage.
 class SolidMeshes {
  public:
-  bool operator()(const std::shared_ptr<const Mesh>& mesh) {
-    const auto [entry, fresh] = known_.try_emplace(mesh, false);
-    if (fresh) entry->second = is_solid(*mesh);
-    return entry->second;
+  void mark(std::vector<ViewDrawable>& drawables) {
+    for (ViewDrawable& seen : drawables) {
+      const auto [entry, fresh] = known_.try_emplace(seen.drawable->mesh, false);
+      if (fresh) entry->second = is_solid(*seen.drawable->mesh);
+      seen.solid = entry->second;
+    }
   }
   /// Forgets meshes that nobody else holds.
   void tidy() {
@@ -34,17 +36,6 @@ class SolidMeshes {
  private:
   std::map<std::shared_ptr<const Mesh>, bool> known_;
 };
-
-template <class Thing>
-std::vector<ViewDrawable> drawables_of(const std::vector<Thing>& things, SolidMeshes& solid) {
-  std::vector<ViewDrawable> all;
-  for (std::size_t i = 0; i < things.size(); ++i) {
-    for (const Drawable& drawable : things[i].drawables) {
-      all.push_back({&drawable, solid(drawable.mesh), static_cast<std::uint32_t>(i)});
-    }
-  }
-  return all;
-}
 
 /// What a row of tiles counted.
 struct RowTally {
@@ -219,8 +210,10 @@ struct Compiler::State {
   }
 
   CompiledFrame frame(const Stage& stage, std::stop_token stop, FrameImages recycled) {
-    const std::vector<ViewDrawable> surfaces = drawables_of(stage.surfaces, solid);
-    const std::vector<ViewDrawable> objects = drawables_of(stage.objects, solid);
+    std::vector<ViewDrawable> surfaces = drawables_of(stage.surfaces);
+    std::vector<ViewDrawable> objects = drawables_of(stage.objects);
+    solid.mark(surfaces);
+    solid.mark(objects);
     look_at_surfaces(stage, surfaces);
 
     CompiledFrame out;

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "core/compile/cells.h"
 #include "core/compile/kernel.h"
+#include "core/compile/look_grid.h"
 #include "core/compile/surface_hits.h"
 #include "core/compile/view_triangles.h"
 #include "core/optics/eye.h"
@@ -45,14 +48,13 @@ struct Sight {
   bool empty() const { return !(bounds.min_x <= bounds.max_x && bounds.min_y <= bounds.max_y); }
 };
 
-/// 64 looks and what they met: depth along the axis (NaN: nothing) and the drawable.
+/// 64 looks and how far along the axis they met something (NaN: nothing).
 struct Looks {
   double x[tile_samples];
   double y[tile_samples];
 };
 struct Met {
   double depth_m[tile_samples];
-  std::uint32_t drawable[tile_samples];
 };
 
 Met nearest(const Sight& sight, const Looks& looks) {
@@ -67,24 +69,13 @@ Met nearest(const Sight& sight, const Looks& looks) {
     if (found.triangle[i] < 0) continue;
     const ViewTriangle& triangle = sight.view.triangles[static_cast<std::size_t>(found.triangle[i])];
     met.depth_m[i] = 1.0 / triangle.inverse_depth(looks.x[i], looks.y[i]);
-    met.drawable[i] = triangle.drawable;
   }
   return met;
 }
 
-template <class Thing>
-std::vector<ViewDrawable> drawables_of(const std::vector<Thing>& things) {
-  std::vector<ViewDrawable> all;
-  for (std::size_t i = 0; i < things.size(); ++i) {
-    for (const Drawable& drawable : things[i].drawables)
-      all.push_back({&drawable, false, static_cast<std::uint32_t>(i)});
-  }
-  return all;
-}
-
 /// One eye at work.
 struct Survey {
-  const Sight& objects;
+  const LookGrid& objects;
   const Sight& surfaces;
   const Sight& from_projector;
   const ProjectorModel& projector;
@@ -93,18 +84,6 @@ struct Survey {
   double lens_aperture_m;
   const std::vector<ViewDrawable>& object_drawables;
 };
-
-/// Looks of one tile of the grid over the objects' bounds.
-Looks grid_looks(const Box& bounds, int grid, int tile_column, int tile_row) {
-  Looks looks;
-  for (int i = 0; i < tile_samples; ++i) {
-    const double column = tile_column * tile_side + i % tile_side + 0.5;
-    const double row = tile_row * tile_side + i / tile_side + 0.5;
-    looks.x[i] = bounds.min_x + (static_cast<double>(bounds.max_x) - bounds.min_x) * column / grid;
-    looks.y[i] = bounds.min_y + (static_cast<double>(bounds.max_y) - bounds.min_y) * row / grid;
-  }
-  return looks;
-}
 
 /// Whether some pixel's light leaves in this direction. Far off the axis a distortion can fold back into the image: a
 /// position counts only if its pixel leads back to it.
@@ -142,14 +121,23 @@ std::vector<bool> reached(const Survey& survey, const Looks& looks, const Met& s
   return lit;
 }
 
-void survey_tile(const Survey& survey, const Looks& looks, std::vector<ObjectCoverage>& counts) {
-  const Met object = nearest(survey.objects, looks);
-  if (std::all_of(object.depth_m, object.depth_m + tile_samples, [](double d) { return std::isnan(d); })) return;
+void survey_tile(const Survey& survey, int tile_column, int tile_row, std::vector<ObjectCoverage>& counts) {
+  Looks looks;
+  std::int32_t object[tile_samples];
+  for (int i = 0; i < tile_samples; ++i) {
+    const int column = tile_column * tile_side + i % tile_side;
+    const int row = tile_row * tile_side + i / tile_side;
+    const glm::dvec2 look = survey.objects.look(column, row);
+    looks.x[i] = look.x;
+    looks.y[i] = look.y;
+    object[i] = survey.objects.met(column, row);
+  }
+  if (std::all_of(object, object + tile_samples, [](std::int32_t drawable) { return drawable < 0; })) return;
   const Met surface = nearest(survey.surfaces, looks);
   const std::vector<bool> lit = reached(survey, looks, surface);
   for (int i = 0; i < tile_samples; ++i) {
-    if (std::isnan(object.depth_m[i])) continue;
-    ObjectCoverage& count = counts[survey.object_drawables[object.drawable[i]].owner];
+    if (object[i] < 0) continue;
+    ObjectCoverage& count = counts[survey.object_drawables[static_cast<std::size_t>(object[i])].owner];
     ++count.looks;
     if (std::isnan(surface.depth_m[i])) {
       ++count.off_surface;
@@ -168,37 +156,84 @@ void add(ObjectCoverage& sum, const ObjectCoverage& part) {
   sum.outside_lens += part.outside_lens;
 }
 
+/// All looks of one eye.
+void survey_grid(const Survey& survey, int tiles, std::vector<ObjectCoverage>& coverage) {
+  std::vector<std::vector<ObjectCoverage>> rows(static_cast<std::size_t>(tiles),
+                                                std::vector<ObjectCoverage>(coverage.size()));
+  tbb::parallel_for(0, tiles, [&](int row) {
+    for (int column = 0; column < tiles; ++column) {
+      survey_tile(survey, column, row, rows[static_cast<std::size_t>(row)]);
+    }
+  });
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < coverage.size(); ++i) add(coverage[i], row[i]);
+  }
+}
+
 }  // namespace
 
-std::vector<ObjectCoverage> measure_coverage(const Stage& stage, const ProjectorModel& projector,
-                                             double lens_to_pupil_m, double lens_aperture_m, int grid) {
+struct CoverageMeter::State {
+  ProjectorModel projector;
+  double lens_to_pupil_m;
+  double lens_aperture_m;
+  int tiles;  ///< of the grid, along each side
+
+  LookGrid grid;
+  std::vector<StagedSurface> surfaces_before;
+  Rigid viewer_before;
+  double interpupillary_before_m = 0.0;
+  std::optional<Sight> from_projector;
+  PerEye<std::optional<Sight>> of_surfaces;
+
+  /// How the projector and the eyes see the surfaces; kept while surfaces and viewer stand still.
+  void look_at_surfaces(const Stage& stage, const PerEye<Eye>& eyes) {
+    const bool same_surfaces = from_projector && surfaces_before == stage.surfaces;
+    const bool same_viewer =
+        same_surfaces && viewer_before == stage.world_from_viewer && interpupillary_before_m == stage.interpupillary_m;
+    if (same_viewer) return;
+    const std::vector<ViewDrawable> surfaces = drawables_of(stage.surfaces);
+    if (!same_surfaces) from_projector.emplace(surfaces, projector.world_from_projector.inverse(), 1e-3, tiles);
+    for (const Side side : both_sides) {
+      of_surfaces[side].emplace(surfaces, eyes[side].eye_from_world, nearest_seen_m(lens_to_pupil_m), tiles);
+    }
+    surfaces_before = stage.surfaces;
+    viewer_before = stage.world_from_viewer;
+    interpupillary_before_m = stage.interpupillary_m;
+  }
+};
+
+CoverageMeter::CoverageMeter(ProjectorModel projector, double lens_to_pupil_m, double lens_aperture_m, int grid)
+    : state_(std::make_unique<State>()) {
+  state_->projector = std::move(projector);
+  state_->lens_to_pupil_m = lens_to_pupil_m;
+  state_->lens_aperture_m = lens_aperture_m;
+  state_->tiles = std::max(1, (grid + tile_side - 1) / tile_side);
+}
+CoverageMeter::~CoverageMeter() = default;
+CoverageMeter::CoverageMeter(CoverageMeter&&) noexcept = default;
+CoverageMeter& CoverageMeter::operator=(CoverageMeter&&) noexcept = default;
+
+std::vector<ObjectCoverage> CoverageMeter::measure(const Stage& stage) {
+  State& state = *state_;
   std::vector<ObjectCoverage> coverage(stage.objects.size());
   for (std::size_t i = 0; i < coverage.size(); ++i) coverage[i].index = stage.objects[i].index;
+  const PerEye<Eye> eyes = eyes_of(stage.world_from_viewer, stage.interpupillary_m, state.lens_to_pupil_m);
+  state.look_at_surfaces(stage, eyes);
   const std::vector<ViewDrawable> objects = drawables_of(stage.objects);
-  const std::vector<ViewDrawable> surfaces = drawables_of(stage.surfaces);
-  const int tiles = std::max(1, (grid + tile_side - 1) / tile_side);
-  const Rigid projector_from_world = projector.world_from_projector.inverse();
-  const Sight from_projector(surfaces, projector_from_world, 1e-3, tiles);
-  const PerEye<Eye> eyes = eyes_of(stage.world_from_viewer, stage.interpupillary_m, lens_to_pupil_m);
+  const Rigid projector_from_world = state.projector.world_from_projector.inverse();
   for (const Side side : both_sides) {
     const Rigid& eye_from_world = eyes[side].eye_from_world;
-    const Sight of_objects(objects, eye_from_world, nearest_seen_m(lens_to_pupil_m), tiles);
-    if (of_objects.empty()) continue;
-    const Sight of_surfaces(surfaces, eye_from_world, nearest_seen_m(lens_to_pupil_m), tiles);
-    const Survey survey{
-        of_objects,      of_surfaces,     from_projector, projector, projector_from_world * eye_from_world.inverse(),
-        lens_to_pupil_m, lens_aperture_m, objects};
-    std::vector<std::vector<ObjectCoverage>> rows(static_cast<std::size_t>(tiles),
-                                                  std::vector<ObjectCoverage>(coverage.size()));
-    tbb::parallel_for(0, tiles, [&](int row) {
-      for (int column = 0; column < tiles; ++column) {
-        survey_tile(survey, grid_looks(of_objects.bounds, tiles * tile_side, column, row),
-                    rows[static_cast<std::size_t>(row)]);
-      }
-    });
-    for (const auto& row : rows) {
-      for (std::size_t i = 0; i < coverage.size(); ++i) add(coverage[i], row[i]);
-    }
+    state.grid.lay(objects, eye_from_world, nearest_seen_m(state.lens_to_pupil_m), state.tiles * tile_side);
+    if (state.grid.empty()) continue;
+    const Survey survey{state.grid,
+                        *state.of_surfaces[side],
+                        *state.from_projector,
+                        state.projector,
+                        projector_from_world * eye_from_world.inverse(),
+                        state.lens_to_pupil_m,
+                        state.lens_aperture_m,
+                        objects};
+    survey_grid(survey, state.tiles, coverage);
   }
   return coverage;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/optics/projector_model.h"
@@ -17,8 +18,21 @@ struct ObjectCoverage {
   std::uint64_t outside_lens = 0;       ///< the look misses the lens aperture
 };
 
-/// Looks from both pupils over a regular grid about as fine as `grid` x `grid` over the objects.
-std::vector<ObjectCoverage> measure_coverage(const Stage& stage, const ProjectorModel& projector,
-                                             double lens_to_pupil_m, double lens_aperture_m, int grid = 64);
+/// Measures stage after stage of one project: looks from both pupils over a regular grid about as fine as `grid` x
+/// `grid` over the objects. Keeps how the eyes and the projector see the surfaces while those stand still.
+class CoverageMeter {
+ public:
+  CoverageMeter(ProjectorModel projector, double lens_to_pupil_m, double lens_aperture_m, int grid = 64);
+  ~CoverageMeter();
+  CoverageMeter(CoverageMeter&&) noexcept;
+  CoverageMeter& operator=(CoverageMeter&&) noexcept;
+
+  /// One entry per object of the stage, in its order.
+  std::vector<ObjectCoverage> measure(const Stage& stage);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace focalstage

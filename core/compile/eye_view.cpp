@@ -60,11 +60,6 @@ Range surface_vergence_d(const EyeTile& tile, Range stretch, double lens_to_pupi
   return {vergence_d(tile.min_inverse_m - reach) - slack_d, vergence_d(tile.max_inverse_m + reach) + slack_d};
 }
 
-Box hull(const Box& a, const Box& b) {
-  return {std::min(a.min_x, b.min_x), std::min(a.min_y, b.min_y), std::max(a.max_x, b.max_x),
-          std::max(a.max_y, b.max_y)};
-}
-
 /// Everything that the eye can look at through any slice.
 Box all_looks(const EyeHits& hits, const std::vector<SliceSetup>& slices, double lens_to_pupil_m) {
   Box bounds{infinity, infinity, -infinity, -infinity};

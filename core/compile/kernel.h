@@ -25,7 +25,7 @@ struct alignas(32) TileHits {
 /// The triangles of a view in their cells, as plain pointers.
 struct KernelView {
   const ViewTriangle* triangles;
-  const TriangleBounds* bounds;
+  const ViewBounds* bounds;
   CellGrid grid;
   const std::uint32_t* begin;
   const std::uint32_t* items;

@@ -3,10 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <glm/mat4x4.hpp>
-#include <glm/vec3.hpp>
-
-#include "core/compile/tile.h"
+#include "core/compile/view_points.h"
 #include "core/stage/stage.h"
 
 namespace focalstage {
@@ -33,19 +30,24 @@ struct alignas(32) ViewTriangle {
   double inverse_depth(double look_x, double look_y) const { return edge(3, look_x, look_y); }
 };
 
-/// Bounds of the part of a triangle in front of the viewer, rounded outwards.
-struct TriangleBounds {
-  Box box;
-  float min_inverse_m;
-  float max_inverse_m;
-};
-
 /// A drawable and what a view must know of it.
 struct ViewDrawable {
   const Drawable* drawable = nullptr;
   bool solid = false;       ///< bounds a solid: backs can be left out when seen from outside
   std::uint32_t owner = 0;  ///< object or surface, in the stage's list
 };
+
+/// All drawables of a stage's objects or surfaces, none of them taken for solid.
+template <class Thing>
+std::vector<ViewDrawable> drawables_of(const std::vector<Thing>& things) {
+  std::vector<ViewDrawable> all;
+  for (std::size_t i = 0; i < things.size(); ++i) {
+    for (const Drawable& drawable : things[i].drawables) {
+      all.push_back({&drawable, false, static_cast<std::uint32_t>(i)});
+    }
+  }
+  return all;
+}
 
 /// The triangles of a view. They stand in runs with unused places between, as their makers on several threads left
 /// them; an index names a place.
@@ -56,12 +58,17 @@ struct ViewTriangles {
   };
 
   std::vector<ViewTriangle> triangles;
-  std::vector<TriangleBounds> bounds;
+  std::vector<ViewBounds> bounds;
   std::vector<Run> runs;
   double nearest_m = 0.0;  ///< looks pass through what is nearer than this
+  ViewPoints points;       ///< of the drawable set up last: memory to work in
 
   bool empty() const;
 };
+
+/// The triple products of a triangle with corners in view space; false where the view sees it edge-on or, with
+/// `backs_hidden`, from behind.
+bool set_up_triangle(const ViewPoints& points, const glm::uvec3& corners, bool backs_hidden, ViewTriangle& out);
 
 /// Sets up all triangles that can be met within `bounds`, in the order of the drawables and their meshes, on as many
 /// threads as the caller's arena has. Keeps the memory that `view` already has.

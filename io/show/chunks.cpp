@@ -29,10 +29,6 @@ libdeflate_decompressor* decompressor() {
   return mine.get();
 }
 
-bool is_black(std::span<const std::uint8_t> bytes) {
-  return bytes[0] == 0 && std::memcmp(bytes.data(), bytes.data() + 1, bytes.size() - 1) == 0;
-}
-
 /// The part of an image that a chunk covers.
 struct Place {
   std::size_t rows;        ///< inside the image
@@ -49,14 +45,23 @@ Place place_of(const ChunkGrid& grid, std::size_t chunk) {
           (row * grid.width + column) * grid.channels, grid.width * grid.channels, grid.columns * grid.channels};
 }
 
+bool is_black(std::span<const std::uint8_t> image, const Place& place) {
+  for (std::size_t r = 0; r < place.rows; ++r) {
+    const std::uint8_t* const row = &image[place.image_at + r * place.image_step];
+    if (row[0] != 0 || std::memcmp(row, row + 1, place.row_bytes - 1) != 0) return false;
+  }
+  return true;
+}
+
 std::vector<std::uint8_t> packed_chunk(std::span<const std::uint8_t> image, const ChunkGrid& grid, std::size_t chunk) {
   thread_local std::vector<std::uint8_t> raw;
   thread_local std::vector<std::uint8_t> packed;
-  raw.assign(grid.bytes(), 0);
   const Place place = place_of(grid, chunk);
+  if (is_black(image, place)) return {};
+  raw.resize(grid.bytes());
+  if (place.rows * place.row_bytes != raw.size()) std::fill(raw.begin(), raw.end(), std::uint8_t{0});
   for (std::size_t r = 0; r < place.rows; ++r)
     std::memcpy(&raw[r * place.chunk_step], &image[place.image_at + r * place.image_step], place.row_bytes);
-  if (is_black(raw)) return {};
   packed.resize(libdeflate_zlib_compress_bound(compressor(), raw.size()));
   const std::size_t size = libdeflate_zlib_compress(compressor(), raw.data(), raw.size(), packed.data(), packed.size());
   return {packed.begin(), packed.begin() + static_cast<std::ptrdiff_t>(size)};

@@ -66,13 +66,14 @@ double lit_share(const Codes& codes) {
   return static_cast<double>(lit) / static_cast<double>(codes.size());
 }
 
-/// The engine as a show uses it: what stands still is kept, here the surfaces; every object is taken as moved.
-std::function<void(Codes&)> engine(const BenchScene& scene, int threads, VectorPath path = VectorPath::best) {
+/// The engine as a show uses it, to and fro between the scene and `other`: what stands still may be kept.
+std::function<void(Codes&)> engine(const BenchScene& scene, const Stage& other, int threads = 0,
+                                   VectorPath path = VectorPath::best) {
   const auto compiler = std::make_shared<Compiler>(scene.settings, threads, path);
   const auto turn = std::make_shared<bool>(false);
-  return [&scene, compiler, turn](Codes& codes) {
+  return [&scene, &other, compiler, turn](Codes& codes) {
     *turn = !*turn;
-    Result<CompiledFrame> frame = compiler->frame(*turn ? scene.stage : scene.moved);
+    Result<CompiledFrame> frame = compiler->frame(*turn ? scene.stage : other);
     if (frame) codes = std::move(frame->images.codes);
   };
 }
@@ -98,10 +99,11 @@ Result<std::vector<Variant>> variants_of(const BenchScene& scene) {
   all.push_back({"a3 fused passes", [=](Codes& codes) { two_pass->frame(TwoPass::Passes::fused, codes); }});
   all.push_back({"b naive rays", [=](Codes& codes) { naive->frame(NaiveRays::Hits::anew, codes); }});
   all.push_back({"b, hits kept", [=](Codes& codes) { naive->frame(NaiveRays::Hits::kept, codes); }});
-  all.push_back({"engine", engine(scene, 0)});
+  all.push_back({"engine", engine(scene, scene.moved)});
+  all.push_back({"engine, one moves", engine(scene, scene.one_moved)});
   all.push_back({"engine, first frame", first_frame(scene, 0)});
-  all.push_back({"engine, 1 thread", engine(scene, 1)});
-  all.push_back({"engine, portable", engine(scene, 0, VectorPath::portable)});
+  all.push_back({"engine, 1 thread", engine(scene, scene.moved, 1)});
+  all.push_back({"engine, portable", engine(scene, scene.moved, 0, VectorPath::portable)});
   return all;
 }
 

@@ -32,6 +32,7 @@ Project load(const std::string& code) {
 std::vector<Finding> findings_of(const Project& project) {
   const CompileSettings settings = compile_settings(project);
   Compiler compiler(settings, 1);
+  CoverageMeter meter(settings.projector, settings.lens_to_pupil_m, project.glasses.lens_aperture_mm / 1000.0);
   Measured measured;
   for (int frame = 0; frame < project.frames.count; ++frame) {
     const Result<Stage> staged = stage(project, Assets{}, frame / project.frames.rate_hz);
@@ -39,8 +40,7 @@ std::vector<Finding> findings_of(const Project& project) {
     Result<CompiledFrame> compiled = compiler.frame(*staged);
     REQUIRE(compiled.ok());
     measured.frames.push_back(compiled->measure);
-    measured.coverage.push_back(measure_coverage(*staged, settings.projector, settings.lens_to_pupil_m,
-                                                 project.glasses.lens_aperture_mm / 1000.0));
+    measured.coverage.push_back(meter.measure(*staged));
   }
   return check(project, make_schedule(project, settings.images), measured);
 }

@@ -28,6 +28,11 @@ Stage room(const Drawable& surface, const Drawable& object) {
 
 ProjectorModel wide_projector() { return {1000, 1000, {500, 500}, {500, 500}, {}, {}}; }
 
+std::vector<ObjectCoverage> measure_coverage(const Stage& stage, const ProjectorModel& projector,
+                                             double lens_to_pupil_m, double lens_aperture_m) {
+  return CoverageMeter(projector, lens_to_pupil_m, lens_aperture_m).measure(stage);
+}
+
 double share(std::uint64_t part, const ObjectCoverage& of) {
   return static_cast<double>(part) / static_cast<double>(of.looks);
 }
@@ -95,4 +100,31 @@ TEST_CASE("an object around the viewer and a folded distortion are survived") {
   const auto aside =
       measure_coverage(room(plane(9, 9, {0, 0, -1.0001}), plane(0.1, 0.1, {1.4, 0, -1})), folded, 0.015, 0.016);
   CHECK(aside[0].outside_projector == aside[0].looks);
+}
+
+TEST_CASE("a meter that keeps what stood still measures as a fresh one does") {
+  Stage stage = room(plane(0.6, 0.6, {0, 0, -1.2}), plane(0.3, 0.3, {0.2, 0, -0.8}));
+  stage.surfaces.push_back({"board", 1, 0.0, {}, {plane(0.2, 2, {0.1, 0, -1.0})}});
+  CoverageMeter meter(wide_projector(), 0.015, 0.016);
+  const auto check = [&] {
+    const ObjectCoverage kept = meter.measure(stage)[0];
+    const ObjectCoverage fresh = measure_coverage(stage, wide_projector(), 0.015, 0.016)[0];
+    CHECK(kept.looks == fresh.looks);
+    CHECK(kept.off_surface == fresh.off_surface);
+    CHECK(kept.outside_projector == fresh.outside_projector);
+    CHECK(kept.outside_lens == fresh.outside_lens);
+    return kept;
+  };
+  const ObjectCoverage first = check();
+  stage.objects[0].drawables[0].world_from_mesh[3].x = 0.1;
+  CHECK(check().off_surface != first.off_surface);  // the object moves
+  const std::uint64_t before = check().off_surface;
+  stage.surfaces[0].drawables[0].world_from_mesh[3].x = 0.3;
+  CHECK(check().off_surface != before);  // a surface moves
+  stage.world_from_viewer.position_m.x = 0.05;
+  check();  // the viewer
+  stage.interpupillary_m = 0.05;
+  check();
+  stage.surfaces.pop_back();
+  check();
 }
