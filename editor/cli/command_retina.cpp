@@ -7,7 +7,7 @@
 #include "editor/cli/command_list.h"
 #include "editor/cli/interrupt.h"
 #include "editor/cli/output.h"
-#include "editor/cli/seen_show.h"
+#include "editor/pipeline/seen_show.h"
 #include "io/image/png.h"
 
 namespace focalstage {
