@@ -30,9 +30,6 @@ Result<SeenShow> SeenShow::of(const ShowReader& show, const std::string& name, i
   const ShowHeader& header = show.header();
   auto source = project_in(show, name);
   if (!source) return source.fault();
-  if (source->project.projectors.empty()) {
-    return Fault{"project.no-projector", name + ": /project: /projectors", "the show's project has no projector", ""};
-  }
   auto staged = stage(source->project, source->loaded.assets, (header.first_frame + frame) / header.rate_hz);
   if (!staged) return staged.fault();
   auto images = show.frame(frame);

@@ -128,16 +128,3 @@ TEST_CASE("poses that a tracker gave the show count, not the project's") {
   CHECK(placed[2].x == doctest::Approx(1.0));
   CHECK(stage.world_from_viewer.position_m.y == 1.0);
 }
-
-TEST_CASE("a show whose project has no projector is a fault") {
-  const Folder folder;
-  const auto show = show_of(folder, [](ShowHeader& header) {
-    Project project = moving_screen();
-    project.projectors.clear();
-    header.project_text = project_text(project);
-  });
-  REQUIRE(show);
-  const auto seen = SeenShow::of(*show, "show.h5", 0, Side::left);
-  REQUIRE_FALSE(seen);
-  CHECK(seen.fault().code == "project.no-projector");
-}
