@@ -33,7 +33,8 @@ focalstage_room(devices/runtime USES devices/player devices/sim io/show io/proje
 
 # editor: what people touch
 focalstage_room(editor/samples  USES io/files core/base)
-focalstage_room(editor/pipeline USES io/project io/assets io/show core/check core/reference core/compile core/schedule)
+focalstage_room(editor/pipeline USES io/project io/assets io/show core/check core/reference core/compile core/retina
+                                     core/schedule)
 focalstage_room(editor/cli      USES editor/samples editor/pipeline io/project io/assets io/show io/export io/protocol
                                      core/check core/reference core/compile core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
