@@ -48,23 +48,31 @@ struct RigClient::State {
   std::string token;
   std::stop_token stop;  ///< of the push in progress: a stop request ends the call it is in
 
-  /// One call with a deadline.
+  /// One call with a deadline; `until` ends it before.
   template <class Reply, class Request>
   Result<Reply> call(grpc::Status (v1::Rig::Stub::*method)(grpc::ClientContext*, const Request&, Reply*),
-                     const Request& request, milliseconds at_most) {
+                     const Request& request, milliseconds at_most, const std::stop_token& until) {
     grpc::ClientContext context;
     context.set_deadline(std::chrono::system_clock::now() + at_most);
-    const std::stop_callback on_stop(stop, [&] { context.TryCancel(); });
+    const std::stop_callback on_stop(until, [&] { context.TryCancel(); });
     Reply reply;
     const grpc::Status status = (stub.get()->*method)(&context, request, &reply);
     if (!status.ok()) return fault_from(status, address);
     return reply;
   }
 
+  template <class Reply, class Request>
+  Result<Reply> call(grpc::Status (v1::Rig::Stub::*method)(grpc::ClientContext*, const Request&, Reply*),
+                     const Request& request, milliseconds at_most) {
+    return call(method, request, at_most, stop);
+  }
+
+  /// No stop request ends this call: the rig may have given a lease of which only the answer tells, and nobody could
+  /// give it back.
   Status acquire() {
     v1::AcquireRequest request;
     request.set_holder(holder_name());
-    Result<v1::Lease> lease = call(&v1::Rig::Stub::Acquire, request, deadline);
+    Result<v1::Lease> lease = call(&v1::Rig::Stub::Acquire, request, deadline, std::stop_token());
     if (!lease) return lease.fault();
     token = lease->token();
     return {};
@@ -78,6 +86,7 @@ struct RigClient::State {
       if (token.empty()) {
         if (Status held = acquire(); !held) return held.fault();
       }
+      if (stop.stop_requested()) return cancelled(address);
       request.set_token(token);
       Result<Reply> reply = call(method, request, at_most);
       if (reply || reply.fault().code != "rig.lease" || attempt > 0) return reply;
