@@ -44,13 +44,14 @@ def test_damaged_shows_are_refused():
         for k in range(12):
             damaged = bytearray(data)
             if k % 2:
-                damaged = damaged[: dice.randrange(1, len(data))]
+                damaged, named = damaged[: dice.randrange(512, len(data))], "bytes, its seal says"
             else:
-                damaged[dice.randrange(len(data))] ^= 1 << dice.randrange(8)
+                damaged[dice.randrange(512, len(data) - 32)] ^= 1 << dice.randrange(8)
+                named = f"chunk 0 of 1 (bytes 512 to {len(data) - 32})"
             bad.write_bytes(damaged)
             ran = focalstage("push", bad, "--to", address, "--activate")
             assert ran.status in (INVALID, ENVIRONMENT), ran
-            expect(ran, ran.status, "bad.h5")
+            expect(ran, ran.status, "bad.h5", named)
         after = succeed("rig", "state", "--to", address, "--json").json()
         assert after["state"] == "playing" and after["show_sha256"] == before["show_sha256"], after
 
