@@ -1,7 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "editor/cli/adopt.h"
+#include "io/protocol/adopt.h"
 #include "editor/cli/command_list.h"
 #include "editor/cli/edit_file.h"
 #include "editor/cli/output.h"

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "editor/cli/command_list.h"
-#include "editor/cli/compile_show.h"
+#include "editor/pipeline/compile_show.h"
 #include "editor/cli/interrupt.h"
 #include "editor/cli/output.h"
 #include "editor/cli/progress.h"

@@ -7,23 +7,12 @@
 #include <glm/vec3.hpp>
 
 #include "core/base/sides.h"
+#include "editor/tools/handle_frame.h"
+#include "editor/tools/room_camera.h"
 
 namespace focalstage {
 
 enum class PaneId { room, projector, eye, time };
-enum class HandleTool { move, turn, scale, measure };
-/// Along which axes handles act. `sight`: along the line of sight from the viewer, which is what depth means here.
-enum class HandleSpace { world, local, sight };
-
-/// The room's camera: it orbits `target_m`. Azimuth 0 looks along -Z, elevation 90 straight down.
-struct RoomCamera {
-  glm::dvec3 target_m{0.0, 0.0, -0.4};
-  double distance_m = 1.8;
-  double azimuth_deg = -35.0;
-  double elevation_deg = 22.0;
-  bool operator==(const RoomCamera&) const = default;
-};
-
 enum class LookThrough { nothing, left_eye, right_eye, projector };
 enum class Compensation { on, off, difference };
 enum class ProjectorPicture { slice, assignment };

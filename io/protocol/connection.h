@@ -28,6 +28,9 @@ class RigConnection {
   Milliseconds deadline() const { return deadline_; }
   v1::Rig::Stub& stub() { return *stub_; }
 
+  /// Why a stream ended that this program did not end.
+  Fault lost(const grpc::Status& status) const;
+
   /// Whether the runtime is there, as far as the channel knows; where not, begins to look for it.
   bool reachable() const;
 
