@@ -1,6 +1,7 @@
 #include "editor/window/app/editor.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <chrono>
@@ -118,9 +119,22 @@ void Editor::frame(const FrameKind& kind) {
   window_->set_title(session_.has_document() ? session_.project().name + " - Focalstage" : "Focalstage");
 }
 
+/// Escape closes the popup in front, if there is one that is no question.
+bool Editor::close_popup() {
+  const auto& popups = ImGui::GetCurrentContext()->OpenPopupStack;
+  const bool escape = std::ranges::any_of(window_->input().pressed(),
+                                          [](const KeyChord& chord) { return same_chord(chord, "Escape"); });
+  if (!escape || popups.empty()) return false;
+  const ImGuiWindow* front = popups.back().Window;
+  if (front != nullptr && (front->Flags & ImGuiWindowFlags_Modal) == 0) {
+    ImGui::ClosePopupToLevel(popups.Size - 1, true);
+  }
+  return true;
+}
+
 void Editor::follow_shortcuts() {
   const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantTextInput || session_.question()) return;
+  if (io.WantTextInput || session_.question() || close_popup()) return;
   for (const KeyChord& chord : window_->input().pressed()) {
     for (const Command& command : commands()) {
       if (command.shortcut.empty() || !same_chord(chord, command.shortcut)) continue;

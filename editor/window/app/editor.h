@@ -55,6 +55,7 @@ class Editor {
   void set_scale(double scale);
 
  private:
+  bool close_popup();
   void follow_shortcuts();
   void import_dropped();
   void follow_fill_press();
