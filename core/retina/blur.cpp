@@ -17,31 +17,19 @@ struct Layer {
   int factor;
 };
 
-/// Steps of less than a third, so that a mixture of two discs still looks like one. All radii are quarters.
+/// Steps of a third at most, so that a mixture of two discs still looks like one. All radii are quarters.
 constexpr std::array<Layer, 25> layers{
-    {{0.0f, 1},  {0.5f, 1},   {0.75f, 1},  {1.0f, 1},   {1.25f, 1},  {1.5f, 1},   {2.0f, 1},   {2.5f, 1},  {3.0f, 1},
-     {4.0f, 1},  {5.0f, 2},   {6.0f, 2},   {8.0f, 2},   {10.0f, 4},  {12.0f, 4},  {16.0f, 4},  {20.0f, 8}, {24.0f, 8},
-     {32.0f, 8}, {40.0f, 16}, {48.0f, 16}, {64.0f, 16}, {80.0f, 32}, {96.0f, 32}, {128.0f, 32}}};
+    {{0.0f, 1},  {0.5f, 1},  {0.75f, 1}, {1.0f, 1},  {1.25f, 1},  {1.5f, 1},   {2.0f, 1},   {2.5f, 1},  {3.0f, 1},
+     {4.0f, 1},  {5.0f, 2},  {6.0f, 2},  {8.0f, 2},  {10.0f, 2},  {12.0f, 2},  {16.0f, 2},  {20.0f, 4}, {24.0f, 4},
+     {32.0f, 4}, {40.0f, 8}, {48.0f, 8}, {64.0f, 8}, {80.0f, 16}, {96.0f, 16}, {128.0f, 16}}};
 
-/// The layer below each quarter of a pixel.
-std::array<std::uint8_t, 513> make_below() {
-  std::array<std::uint8_t, 513> below{};
-  std::uint8_t layer = 0;
-  for (std::size_t quarter = 0; quarter < below.size(); ++quarter) {
-    while (layer + 2u < layers.size() && layers[layer + 1u].radius_px * 4.0f <= static_cast<float>(quarter)) ++layer;
-    below[quarter] = layer;
-  }
-  return below;
-}
-const std::array<std::uint8_t, 513> below = make_below();
-
-/// The disc of a layer at its own size. A disc of radius r spreads light by r^2 / 4 in each direction (its variance);
-/// averaging over `factor` pixels and interpolating between the averages spread it by factor^2 / 4 together, and the
-/// coarser pixel by (factor^2 - 1) / 12 more than a pixel does.
+/// The disc of a layer at its own size. A disc of radius r spreads light by r^2 / 4 in each direction (its variance).
+/// Sharing a pixel out between the coarse ones around it spreads it by factor^2 / 6 + 1/12 in the mean, reading between
+/// them by as much again, and the coarse pixel by (factor^2 - 1) / 12 more than a pixel does.
 Disc make_disc(const Layer& layer) {
-  const double factor = layer.factor, ratio = layer.radius_px / factor;
+  const double factor = layer.factor, ratio = layer.radius_px / factor, part = 1.0 / (factor * factor);
   if (layer.factor == 1) return disc_of(layer.radius_px);
-  return disc_of(std::sqrt(ratio * ratio - 1.0 - (1.0 - 1.0 / (factor * factor)) / 3.0));
+  return disc_of(std::sqrt(ratio * ratio - (4.0 + 2.0 * part) / 3.0 - (1.0 - part) / 3.0));
 }
 
 const std::array<Disc, layers.size()>& discs() {
@@ -53,51 +41,65 @@ const std::array<Disc, layers.size()>& discs() {
   return made;
 }
 
-/// A plane averaged over squares of `factor` pixels, with a frame of dark squares about it so that what spreads beyond
-/// its edge is not lost at a coarse square's border.
+/// A pixel's place between two coarse ones.
+struct Between {
+  int low = 0;
+  float high_share = 0.0f;
+};
+
+std::vector<Between> places_of(int size_px, int factor, int frame) {
+  std::vector<Between> places;
+  for (int i = 0; i < size_px; ++i) {
+    const float place = (static_cast<float>(i) + 0.5f) / static_cast<float>(factor) - 0.5f + static_cast<float>(frame);
+    const int low = static_cast<int>(place);
+    places.push_back({low, place - static_cast<float>(low)});
+  }
+  return places;
+}
+
+/// A plane at 1 / factor of its size, with a frame of dark pixels about it. Light goes in and comes out by shares
+/// between neighbours, which keeps its sum and its centre.
 struct CoarsePlane {
-  int factor, width, height, frame;
+  int factor, width, height;
+  std::vector<Between> columns, rows;  ///< of the fine pixels
   std::vector<float> values;
 
-  CoarsePlane(int width_px, int height_px, int by, int reach)
+  CoarsePlane(int width_px, int height_px, int by, int frame)
       : factor(by),
-        width((width_px + by - 1) / by + 2 * reach),
-        height((height_px + by - 1) / by + 2 * reach),
-        frame(reach),
+        width((width_px + by - 1) / by + 2 * frame),
+        height((height_px + by - 1) / by + 2 * frame),
+        columns(places_of(width_px, by, frame)),
+        rows(places_of(height_px, by, frame)),
         values(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0.0f) {}
 
   float* row(int y) { return &values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width)]; }
   const float* row(int y) const { return &values[static_cast<std::size_t>(y) * static_cast<std::size_t>(width)]; }
 
-  void average(const float* plane, int width_px, int height_px) {
+  void take(const float* plane) {
     const float share = 1.0f / static_cast<float>(factor * factor);
-    tbb::parallel_for(0, (height_px + factor - 1) / factor, [&](int square) {
-      float* const sums = row(square + frame) + frame;
-      for (int y = square * factor; y < std::min(height_px, (square + 1) * factor); ++y) {
-        const float* const from = plane + static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px);
-        for (int x = 0; x < width_px; ++x) sums[x / factor] += share * from[x];
+    for (const Between& y : rows) {
+      float *const upper = row(y.low), *const lower = row(y.low + 1);
+      const float below = share * y.high_share, above = share - below;
+      for (const Between& x : columns) {
+        const float light = *plane++;
+        if (light == 0.0f) continue;
+        const float right = light * x.high_share, left = light - right;
+        upper[x.low] += above * left;
+        upper[x.low + 1] += above * right;
+        lower[x.low] += below * left;
+        lower[x.low + 1] += below * right;
       }
-    });
+    }
   }
 
-  /// Adds the plane, interpolated between the squares' centres.
-  void add_to(float* plane, int width_px, int height_px) const {
-    const auto place = [&](int pixel) {
-      return (static_cast<float>(pixel) + 0.5f) / static_cast<float>(factor) - 0.5f;
-    };
-    tbb::parallel_for(0, height_px, [&](int y) {
-      const float down = place(y) + static_cast<float>(frame);
-      const int top = static_cast<int>(down);
-      const float lower = down - static_cast<float>(top);
-      const float *const a = row(top), *const b = row(top + 1);
-      float* const onto = plane + static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px);
-      for (int x = 0; x < width_px; ++x) {
-        const float across = place(x) + static_cast<float>(frame);
-        const int left = static_cast<int>(across);
-        const float right = across - static_cast<float>(left);
-        const float above = a[left] + right * (a[left + 1] - a[left]);
-        const float under = b[left] + right * (b[left + 1] - b[left]);
-        onto[x] += above + lower * (under - above);
+  void add_to(float* plane) const {
+    tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t y) {
+      const float *const a = row(rows[y].low), *const b = row(rows[y].low + 1);
+      float* onto = plane + y * columns.size();
+      for (const Between& x : columns) {
+        const float above = a[x.low] + x.high_share * (a[x.low + 1] - a[x.low]);
+        const float under = b[x.low] + x.high_share * (b[x.low + 1] - b[x.low]);
+        *onto++ += above + rows[y].high_share * (under - above);
       }
     });
   }
@@ -109,20 +111,25 @@ void add_blurred(const Layer& layer, const Disc& disc, const float* plane, int w
     return;
   }
   CoarsePlane coarse(width_px, height_px, layer.factor, disc.reach_px + 1);
-  coarse.average(plane, width_px, height_px);
+  coarse.take(plane);
   CoarsePlane spread(width_px, height_px, layer.factor, disc.reach_px + 1);
   add_spread(disc, coarse.values.data(), coarse.width, coarse.height, spread.values.data());
-  spread.add_to(onto, width_px, height_px);
+  spread.add_to(onto);
 }
 
 }  // namespace
 
-BlurShare BlurLayers::share(float radius_px) {
-  const float radius = std::min(radius_px, most_radius_px);
-  const int layer = below[static_cast<std::size_t>(radius * 4.0f)];
-  const float low = layers[static_cast<std::size_t>(layer)].radius_px;
-  const float high = layers[static_cast<std::size_t>(layer) + 1].radius_px;
-  return {layer, (radius * radius - low * low) / (high * high - low * low)};
+const std::array<BlurLayers::Step, 513> BlurLayers::steps = make_steps();
+
+std::array<BlurLayers::Step, 513> BlurLayers::make_steps() {
+  std::array<Step, 513> made{};
+  std::size_t layer = 0;
+  for (std::size_t quarter = 0; quarter < made.size(); ++quarter) {
+    while (layer + 2 < layers.size() && layers[layer + 1].radius_px * 4.0f <= static_cast<float>(quarter)) ++layer;
+    const float low = layers[layer].radius_px, high = layers[layer + 1].radius_px;
+    made[quarter] = {static_cast<int>(layer), low * low, 1.0f / (high * high - low * low)};
+  }
+  return made;
 }
 
 BlurLayers::BlurLayers(int width_px, int height_px, int channels, float least_px, float most_px)

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <stop_token>
 #include <vector>
 
@@ -19,15 +21,26 @@ class BlurLayers {
  public:
   static constexpr float most_radius_px = 128.0f;  ///< wider discs are shown as wide as this
 
-  static BlurShare share(float radius_px);
+  static BlurShare share(float radius_px) {
+    const float radius = radius_px < most_radius_px ? radius_px : most_radius_px;
+    const Step& step = steps[static_cast<std::size_t>(radius * 4.0f)];
+    return {step.layer, (radius * radius - step.low_squared) * step.per_squared};
+  }
 
   /// For radii from `least_px` to `most_px`.
   BlurLayers(int width_px, int height_px, int channels, float least_px, float most_px);
 
+  template <int channels>
   void add(int column, int row, const BlurShare& share, const float* light) {
-    for (int c = 0; c < channels_; ++c) {
-      if (share.next < 1.0f) at(share.layer, c, row)[column] += (1.0f - share.next) * light[c];
-      if (share.next > 0.0f) at(share.layer + 1, c, row)[column] += share.next * light[c];
+    float* const low = &light_[(static_cast<std::size_t>((share.layer - first_) * channels) * height_ +
+                                static_cast<std::size_t>(row)) *
+                                   width_ +
+                               static_cast<std::size_t>(column)];
+    const std::size_t plane = width_ * height_;
+    for (std::size_t c = 0; c < channels; ++c) {
+      const float next = share.next * light[c];
+      low[c * plane] += light[c] - next;
+      low[(channels + c) * plane] += next;
     }
   }
 
@@ -35,12 +48,14 @@ class BlurLayers {
   std::vector<float> blurred(const std::stop_token& stop) const;
 
  private:
-  float* at(int layer, int channel, int row) { return plane(layer, channel) + static_cast<std::size_t>(row) * width_; }
-  float* plane(int layer, int channel) {
-    return &light_[(static_cast<std::size_t>(layer - first_) * static_cast<std::size_t>(channels_) +
-                    static_cast<std::size_t>(channel)) *
-                   width_ * height_];
-  }
+  /// From the layer below a quarter of a pixel to the next.
+  struct Step {
+    int layer = 0;
+    float low_squared = 0.0f;
+    float per_squared = 0.0f;
+  };
+  static std::array<Step, 513> make_steps();
+  static const std::array<Step, 513> steps;
 
   std::size_t width_;
   std::size_t height_;

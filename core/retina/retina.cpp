@@ -68,21 +68,25 @@ std::vector<SliceLight> lights_of(const RetinaInput& input, const std::vector<co
   std::vector<SliceLight> lights(input.slices.size());
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (!maps[i]->any) continue;
-    const int factor = static_cast<int>(std::clamp(maps[i]->footprint_px, 1.0, double{most_factor}));
+    const int factor = static_cast<int>(std::clamp(maps[i]->footprint_px + 0.5, 1.0, double{most_factor}));
     lights[i] = slice_light(input.slices[i].codes, input.projector.width_px, input.projector.height_px, input.channels,
                             factor, light_of_code, stop);
   }
   return lights;
 }
 
+template <int channels>
 void add_row(const SliceMap& map, const SliceLight& light, const Focus& focus, int row, BlurLayers& layers) {
+  const LightSampler<channels> sampler(light);
   const SliceSpot* spots = &map.spots[static_cast<std::size_t>(row) * static_cast<std::size_t>(map.grid.width_px)];
   for (int column = 0; column < map.grid.width_px; ++column) {
     const SliceSpot& spot = spots[column];
     if (!spot.lit()) continue;
-    const std::array<float, 3> seen = light.at(spot.x_px, spot.y_px);
-    if (!(seen[0] + seen[1] + seen[2] > 0.0f)) continue;
-    layers.add(column, row, BlurLayers::share(focus.radius_px(spot.vergence_d)), seen.data());
+    const std::array<float, channels> seen = sampler.at(spot.x_px, spot.y_px);
+    float sum = 0.0f;
+    for (const float one : seen) sum += one;
+    if (!(sum > 0.0f)) continue;
+    layers.add<channels>(column, row, BlurLayers::share(focus.radius_px(spot.vergence_d)), seen.data());
   }
 }
 
@@ -136,7 +140,7 @@ Result<RetinaImage> Retina::State::view(const RetinaInput& input, const RetinaVi
   tbb::parallel_for(0, grid.height_px, [&](int row) {
     if (stop.stop_requested()) return;
     for (std::size_t i = 0; i < slices.size(); ++i) {
-      if (lights[i].any) add_row(*slices[i], lights[i], focus, row, layers);
+      if (lights[i].any) (input.channels == 1 ? add_row<1> : add_row<3>)(*slices[i], lights[i], focus, row, layers);
     }
   });
   const std::vector<float> planes = layers.blurred(stop);

@@ -18,15 +18,23 @@ const SliceSpot& spot_in(const SliceMap& map, Pixel pixel) {
                    static_cast<std::size_t>(pixel.column)];
 }
 
-glm::dvec3 world_of(const SliceMap& map, Pixel pixel, const Eye& eye) {
-  const double surface_m = spot_in(map, pixel).surface_m;
+/// The spot of the surface that is seen in a pixel, and its place in the world.
+RetinaSight sight_of(const SliceMap& map, Pixel pixel, const Eye& eye) {
+  const double vergence_d = vergence_at_lens_d(spot_in(map, pixel).vergence_d, eye.lens_to_pupil_m);
+  const double surface_m = 1.0 / (vergence_d + map.power_d);
   const double narrowing = 1.0 - map.power_d * eye.lens_to_pupil_m;
   const glm::dvec2 aside = map.grid.look(pixel.column, pixel.row) * (eye.lens_to_pupil_m + surface_m * narrowing);
-  return eye.eye_from_world.inverse().point({aside, -(eye.lens_to_pupil_m + surface_m)});
+  RetinaSight sight;
+  sight.world_m = eye.eye_from_world.inverse().point({aside, -(eye.lens_to_pupil_m + surface_m)});
+  sight.surface_m = surface_m;
+  sight.vergence_d = vergence_d;
+  return sight;
 }
 
-double luminance(const std::array<float, 3>& light, int channels) {
-  return channels == 1 ? light[0] : 0.2126 * light[0] + 0.7152 * light[1] + 0.0722 * light[2];
+double luminance_of(const SliceLight& light, const SliceSpot& spot) {
+  if (light.channels == 1) return LightSampler<1>(light).at(spot.x_px, spot.y_px)[0];
+  const std::array<float, 3> rgb = LightSampler<3>(light).at(spot.x_px, spot.y_px);
+  return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
 }
 
 /// What several exposures and pixels show together.
@@ -39,12 +47,12 @@ struct Mean {
   void add(const SliceMap& map, const SliceLight& light, Pixel pixel, const Eye& eye) {
     const SliceSpot& spot = spot_in(map, pixel);
     if (!light.any || !spot.lit()) return;
-    const double own = focalstage::luminance(light.at(spot.x_px, spot.y_px), light.channels);
+    const double own = luminance_of(light, spot);
     luminance += own;
     vergence_d += own * vergence_at_lens_d(spot.vergence_d, eye.lens_to_pupil_m);
     if (own <= most) return;
     most = own;
-    brightest = {world_of(map, pixel, eye), spot.surface_m, 0.0, true};
+    brightest = sight_of(map, pixel, eye);
   }
 };
 
@@ -62,12 +70,11 @@ std::optional<RetinaSight> sight_at(const std::vector<const SliceMap*>& maps, co
     }
     if (!(mean.luminance > 0.0)) continue;
     mean.brightest.vergence_d = mean.vergence_d / mean.luminance;
+    mean.brightest.lit = true;
     return mean.brightest;
   }
-  const SliceMap& bare = *maps.back();
-  const double surface_m = spot_in(bare, {column, row}).surface_m;
-  if (!(surface_m > 0.0)) return std::nullopt;
-  return RetinaSight{world_of(bare, {column, row}, eye), surface_m, 1.0 / surface_m, false};
+  if (!spot_in(*maps.back(), {column, row}).seen()) return std::nullopt;
+  return sight_of(*maps.back(), {column, row}, eye);
 }
 
 }  // namespace focalstage

@@ -1,11 +1,6 @@
 #include "core/retina/slice_eye.h"
 
 namespace focalstage {
-namespace {
-
-constexpr double most_vergence_d = 1e6;
-
-}  // namespace
 
 SliceEye slice_eye(const Eye& eye, double power_d) {
   SliceEye slice;

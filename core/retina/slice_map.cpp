@@ -7,8 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/optics/vergence.h"
-
 namespace focalstage {
 namespace {
 
@@ -24,10 +22,12 @@ struct Footprint {
 class Spotter {
  public:
   Spotter(const SurfaceRaster& raster, const ProjectorLight& light, const SliceEye& eye, double lens_radius_m)
-      : raster_(raster), light_(light), eye_(eye), lens_radius_m_(lens_radius_m) {
-    const Rigid world_from_slice = eye.slice_from_world.inverse();
-    turn_ = glm::mat3_cast(world_from_slice.rotation);
-    origin_m_ = world_from_slice.position_m;
+      : raster_(raster), light_(light), eye_(eye) {
+    const Rigid projector_from_slice = light.projector_from_world() * eye.slice_from_world.inverse();
+    turn_ = glm::mat3_cast(projector_from_slice.rotation);
+    shift_m_ = projector_from_slice.position_m;
+    const double most_look = lens_radius_m / eye.lens_to_pupil_m;  // infinite where lens and pupil are one
+    most_look_squared_ = most_look * most_look;
   }
 
   void row(const LookGrid& grid, int row, SliceSpot* spots) const {
@@ -35,21 +35,22 @@ class Spotter {
       const std::uint32_t face = raster_.at(column, row);
       if (face == SurfaceRaster::nothing) continue;
       const glm::dvec2 look = grid.look(column, row);
-      if (glm::length(look) * eye_.lens_to_pupil_m > lens_radius_m_) continue;
-      spots[column] = spot(raster_.grid.look(column, row), face);
+      if (glm::dot(look, look) > most_look_squared_) continue;
+      spots[column] = spot(look * eye_.narrowing, face);
     }
   }
 
  private:
+  /// The picture's vergence at the pupil, 1 / (1 / (1/d_p - v) + d_e), and the spot as the projector sees it; both in
+  /// one division each, from the inverse of the distance.
   SliceSpot spot(const glm::dvec2& narrowed, std::uint32_t face) const {
-    const double depth_m = 1.0 / raster_.faces[face].inverse_depth(narrowed);
+    const double inverse_m = raster_.faces[face].inverse_depth(narrowed);
+    const double beyond_lens = 1.0 - eye_.behind_lens_m * inverse_m;  // d_p * inverse_m
+    const double vergence = inverse_m - eye_.power_d * beyond_lens;   // (1/d_p - v) * beyond_lens
+    const double grown = beyond_lens + eye_.lens_to_pupil_m * vergence;
     SliceSpot spot;
-    const double surface_m = depth_m - eye_.behind_lens_m;
-    spot.surface_m = static_cast<float>(surface_m);
-    spot.vergence_d =
-        static_cast<float>(vergence_at_pupil_d(image_vergence_d(surface_m, eye_.power_d), eye_.lens_to_pupil_m));
-    const glm::dvec3 world_m = turn_ * (glm::dvec3(narrowed, -1.0) * depth_m) + origin_m_;
-    if (const auto pixel = light_.pixel(world_m, face)) {
+    spot.vergence_d = static_cast<float>(grown > 0.0 ? vergence / grown : -most_vergence_d);
+    if (const auto pixel = light_.pixel(turn_ * glm::dvec3(narrowed, -1.0) + shift_m_ * inverse_m, inverse_m, face)) {
       spot.x_px = static_cast<float>(pixel->x);
       spot.y_px = static_cast<float>(pixel->y);
     }
@@ -59,16 +60,17 @@ class Spotter {
   const SurfaceRaster& raster_;
   const ProjectorLight& light_;
   const SliceEye& eye_;
-  double lens_radius_m_;
+  double most_look_squared_ = 0.0;
   glm::dmat3 turn_;
-  glm::dvec3 origin_m_;
+  glm::dvec3 shift_m_;
 };
 
+/// Of every fourth look along a row.
 Footprint footprint_of_row(const SurfaceRaster& raster, const std::vector<SliceSpot>& spots, int row) {
   Footprint sum;
   const auto width = static_cast<std::size_t>(raster.grid.width_px);
   const SliceSpot* own = &spots[static_cast<std::size_t>(row) * width];
-  for (int column = 0; column + 1 < raster.grid.width_px; ++column) {
+  for (int column = 0; column + 1 < raster.grid.width_px; column += 4) {
     const SliceSpot &a = own[column], &b = own[column + 1], &c = own[static_cast<std::size_t>(column) + width];
     if (!a.lit() || !b.lit() || !c.lit()) continue;
     const std::uint32_t face = raster.at(column, row);
@@ -87,7 +89,7 @@ void measure(const SurfaceRaster& raster, SliceMap& map) {
     map.any = true;
   }
   Footprint sum;
-  for (int row = 0; row + 1 < map.grid.height_px; ++row) {
+  for (int row = 0; row + 1 < map.grid.height_px; row += 4) {
     const Footprint one = footprint_of_row(raster, map.spots, row);
     sum.area_px += one.area_px;
     sum.count += one.count;

@@ -13,12 +13,14 @@ namespace focalstage {
 /// What one look meets through one slice: where in the projector's image its light comes from, and where its picture
 /// lies.
 struct SliceSpot {
-  float x_px = std::numeric_limits<float>::quiet_NaN();  ///< not a number: dark
-  float y_px = std::numeric_limits<float>::quiet_NaN();
-  float vergence_d = 0.0f;  ///< at the pupil
-  float surface_m = 0.0f;   ///< along the gaze from the lens centre; 0: no surface is seen
+  static constexpr float none = std::numeric_limits<float>::quiet_NaN();
+
+  float x_px = none;  ///< dark: not a number
+  float y_px = none;
+  float vergence_d = none;  ///< at the pupil; not a number where no surface is seen
 
   bool lit() const { return x_px == x_px; }
+  bool seen() const { return vergence_d == vergence_d; }
 };
 
 /// That for a grid of looks. Knows nothing of images, focus or pupil.

@@ -42,9 +42,11 @@ RowRange rows_of(const glm::dvec3* corners_m[3], const LookGrid& grid) {
           static_cast<int>(std::clamp(std::ceil(high) + 2.0, 0.0, most))};
 }
 
-/// The columns of a row that lie inside all edges. Both faces of an edge find the same crossing and share it
-/// half-open.
+/// The columns of a row that lie inside all edges. Both faces of an edge find the same crossing and both take it, with
+/// a billionth of a pixel for the corners, where the crossings of several edges differ by their rounding: what two
+/// faces cover, the nearer gets.
 RowRange columns_of(const SeenFace& face, const LookGrid& grid, double look_y) {
+  constexpr double slack = 1e-9;
   double begin = 0.0, end = grid.width_px;
   for (const glm::dvec3& edge : face.edge) {
     const double slope = edge.x * grid.step.x;
@@ -53,11 +55,11 @@ RowRange columns_of(const SeenFace& face, const LookGrid& grid, double look_y) {
       if (start < 0.0) return {};
       continue;
     }
-    const double crossing = std::ceil(-start / slope);
+    const double crossing = -start / slope;
     if (slope > 0.0) {
-      begin = std::max(begin, crossing);
+      begin = std::max(begin, std::ceil(crossing - slack));
     } else {
-      end = std::min(end, crossing);
+      end = std::min(end, std::floor(crossing + slack) + 1.0);
     }
   }
   if (!(begin < end)) return {};

@@ -2,7 +2,7 @@
 
 #include <system_error>
 
-#include "core/scene/project_value.h"
+#include "core/scene/edits_between.h"
 #include "editor/document/recent.h"
 #include "editor/document/replay.h"
 #include "editor/samples/samples.h"

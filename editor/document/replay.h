@@ -13,7 +13,4 @@ History replayed(const Project& base, const std::vector<JournalRecord>& records)
 /// What the records would add, in words, those undone at the end left out.
 std::vector<std::string> words_of(const std::vector<JournalRecord>& records);
 
-/// Edits that turn `from` into `to`, one for each member of the project that differs.
-std::vector<Edit> edits_between(const Project& from, const Project& to);
-
 }  // namespace focalstage

@@ -39,7 +39,7 @@ struct Preview::State {
   mutable std::mutex mutex;
   std::condition_variable arrived;
   std::optional<PreviewWish> newest;
-  bool pending = false;             ///< the worker has not looked at it yet
+  bool pending = false;  ///< the worker has not looked at it yet
   bool working = false;
   bool ending = false;
   std::stop_source whole;  ///< stops the full-size compile under way
@@ -139,9 +139,10 @@ void Preview::State::check_measured(const PreviewWish& wish, const CompiledSlice
   made->schedule = make_schedule(*wish.project, made->images);
   Measured measured;
   measured.frames.push_back(compiled.measure);
-  measured.coverage.push_back(measure_coverage(*wish.stage, compiled.settings.projector,
-                                               compiled.settings.lens_to_pupil_m,
-                                               wish.project->glasses.lens_aperture_mm / 1000.0));
+  const CompileSettings& settings = compiled.settings;
+  const double aperture_m = wish.project->glasses.lens_aperture_mm / 1000.0;
+  measured.coverage.push_back(
+      CoverageMeter(settings.projector, settings.lens_to_pupil_m, aperture_m).measure(*wish.stage));
   made->findings = check(*wish.project, made->schedule, measured);
   publish([&] { checked = std::move(made); });
 }

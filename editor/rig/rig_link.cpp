@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "editor/rig/live_stream.h"
 #include "editor/rig/simulated_rig.h"
 #include "io/protocol/client.h"
 
@@ -18,6 +19,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds connect_deadline{1500};
 constexpr milliseconds watch_interval{100};
 constexpr milliseconds retry_pause{300};
+constexpr milliseconds live_interval{20};
 
 }  // namespace
 
@@ -31,7 +33,10 @@ struct RigLink::State {
   std::deque<std::function<void()>> orders;  ///< for the worker, in order
   std::stop_source push_stop;
   bool ending = false;
+  LiveWish live_wish;
+  std::chrono::steady_clock::time_point live_again{};  ///< not before this, after it could not begin
 
+  LiveStream stream;                      ///< the worker's
   std::optional<SimulatedRig> simulated;  ///< the worker's
   std::optional<RigClient> client;        ///< the worker's; holds the rig
 
@@ -43,8 +48,11 @@ struct RigLink::State {
   void order(std::function<void()> what);
   void connect_to(const std::string& address, bool own);
   void leave();
+  void begin_simulated();
+  void revive();
   void watch(const std::string& address, std::stop_token stop);
   void tell(const Status& done);
+  void stay_live();
   void push(const MakeShow& make, std::stop_token stop);
 
   template <class Change>
@@ -68,17 +76,61 @@ void RigLink::State::run() {
     std::function<void()> next;
     {
       std::unique_lock lock(mutex);
-      arrived.wait(lock, [&] { return ending || !orders.empty(); });
+      const auto something = [&] { return ending || !orders.empty(); };
+      if (status.live_wanted) {
+        arrived.wait_for(lock, live_interval, something);
+      } else {
+        arrived.wait(lock, something);
+      }
       if (ending) break;
-      next = std::move(orders.front());
-      orders.pop_front();
+      if (!orders.empty()) {
+        next = std::move(orders.front());
+        orders.pop_front();
+      }
     }
-    next();
+    if (next) next();
+    stay_live();
   }
   leave();
 }
 
+/// Begins what is wanted and not there yet, sends the newest revision, takes what the rig answered.
+void RigLink::State::stay_live() {
+  LiveWish wish;
+  bool wanted = false;
+  {
+    const std::lock_guard lock(mutex);
+    wanted = status.live_wanted && status.phase == RigStatus::Phase::connected;
+    wish = live_wish;
+  }
+  const auto now = std::chrono::steady_clock::now();
+  if (!wanted && stream.open()) {
+    stream.stop();
+    publish([](RigStatus& shown) { shown.live = false; });
+  }
+  if (wanted && !stream.open() && client && wish.project && now >= live_again) {
+    const Status begun = stream.start(*client, wish);
+    live_again = now + retry_pause;
+    publish([&](RigStatus& shown) {
+      shown.live = begun.ok();
+      shown.fault.reset();
+      if (!begun) shown.fault = begun.fault();
+    });
+  }
+  if (!stream.open()) return;
+  if (const Status sent = stream.show(wish); !sent) {
+    publish([&](RigStatus& shown) { shown.fault = sent.fault(); });
+  }
+  bool changed = false;
+  {
+    const std::lock_guard lock(mutex);
+    changed = stream.take_answers(status);
+  }
+  if (changed) wake();
+}
+
 void RigLink::State::leave() {
+  stream.stop();
   watcher = {};
   client.reset();
   simulated.reset();
@@ -93,7 +145,7 @@ void RigLink::State::tell(const Status& done) {
 
 void RigLink::State::connect_to(const std::string& address, bool own) {
   publish([&](RigStatus& now) {
-    now = {};
+    now = RigStatus{};
     now.phase = RigStatus::Phase::connecting;
     now.address = address;
     now.simulated = own;
@@ -115,11 +167,41 @@ void RigLink::State::connect_to(const std::string& address, bool own) {
   watcher = std::jthread([this, address](std::stop_token stop) { watch(address, std::move(stop)); });
 }
 
+void RigLink::State::begin_simulated() {
+  auto rig = SimulatedRig::start(folder / "simulated-rig");
+  if (!rig) {
+    publish([&](RigStatus& now) {
+      now.phase = RigStatus::Phase::none;
+      now.fault = rig.fault();
+    });
+    return;
+  }
+  simulated = std::move(*rig);
+  connect_to(simulated->address(), true);
+}
+
+/// A simulated rig of ours that died is started again; a real one comes back by itself, or does not.
+void RigLink::State::revive() {
+  if (!simulated || simulated->running()) return;
+  const bool was_live = [&] {
+    const std::lock_guard lock(mutex);
+    return status.live_wanted;
+  }();
+  leave();
+  begin_simulated();
+  publish([&](RigStatus& now) { now.live_wanted = was_live; });
+}
+
 void RigLink::State::watch(const std::string& address, std::stop_token stop) {
   while (!stop.stop_requested()) {
     auto watching = RigClient::connect(address, retry_pause);
     if (!watching) {
-      publish([](RigStatus& now) { now.phase = RigStatus::Phase::lost; });
+      publish([&](RigStatus& now) {
+        now.phase = RigStatus::Phase::lost;
+        now.live = false;
+        now.fault = watching.fault();
+      });
+      order([this] { revive(); });
       continue;
     }
     const Status ended = watching->watch(watch_interval, [&](const RigState& seen) {
@@ -191,23 +273,14 @@ void RigLink::simulate() {
   state_->publish([](RigStatus& now) { now.phase = RigStatus::Phase::connecting; });
   state_->order([this] {
     state_->leave();
-    auto rig = SimulatedRig::start(state_->folder / "simulated-rig");
-    if (!rig) {
-      state_->publish([&](RigStatus& now) {
-        now.phase = RigStatus::Phase::none;
-        now.fault = rig.fault();
-      });
-      return;
-    }
-    state_->simulated = std::move(*rig);
-    state_->connect_to(state_->simulated->address(), true);
+    state_->begin_simulated();
   });
 }
 
 void RigLink::disconnect() {
   state_->order([this] {
     state_->leave();
-    state_->publish([](RigStatus& now) { now = {}; });
+    state_->publish([](RigStatus& now) { now = RigStatus{}; });
   });
 }
 
@@ -232,6 +305,19 @@ void RigLink::push(MakeShow make) {
 void RigLink::cancel_push() {
   const std::lock_guard lock(state_->mutex);
   state_->push_stop.request_stop();
+}
+
+void RigLink::live(bool on) {
+  state_->publish([&](RigStatus& now) { now.live_wanted = on; });
+  state_->order([] {});
+}
+
+void RigLink::show(LiveWish wish) {
+  const std::lock_guard lock(state_->mutex);
+  if (wish.revision == state_->live_wish.revision && wish.frame == state_->live_wish.frame) return;
+  state_->live_wish = std::move(wish);
+  if (state_->status.live_wanted) state_->orders.push_back([] {});
+  state_->arrived.notify_one();
 }
 
 void RigLink::play() {

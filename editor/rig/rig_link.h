@@ -32,6 +32,7 @@ struct RigStatus {
   std::string push_step;      ///< "Compiling", "Sending"
   std::string pushed_sha256;  ///< of the last show that arrived whole
 
+  bool live_wanted = false;         ///< the person asked for it
   bool live = false;                ///< edits stream to the rig
   std::uint64_t live_revision = 0;  ///< that the rig shows
   double edit_to_light_ms = -1.0;   ///< as the rig measured it last; negative: not yet
@@ -40,6 +41,14 @@ struct RigStatus {
 /// Makes the show to push: compiles it into a file and returns its path. `progress`: 0..1.
 using MakeShow =
     std::function<Result<std::filesystem::path>(const std::function<void(double)>& progress, std::stop_token stop)>;
+
+/// A revision of a project that live is to show.
+struct LiveWish {
+  std::uint64_t revision = 0;
+  int frame = 0;
+  std::shared_ptr<const Project> project;
+  std::filesystem::path folder;
+};
 
 /// Talks to a runtime behind the window: nothing here blocks. What is asked happens in order; blackout passes all.
 /// When the runtime goes away the link says so and tries again until told otherwise.
@@ -59,6 +68,11 @@ class RigLink {
   /// Compiles, sends, verifies and activates. Faults come in the status.
   void push(MakeShow make);
   void cancel_push();
+
+  /// Edits stream to the rig from now on, or no more.
+  void live(bool on);
+  /// What live shows: the newest wins. `folder`: of the project, for its files.
+  void show(LiveWish wish);
 
   void play();
   void hold();

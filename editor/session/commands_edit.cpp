@@ -222,7 +222,8 @@ Status rename(Session& session, const Value& args) {
   const auto name = text_arg(args, "name");
   if (!name) return name.fault();
   const Thing* primary = session.selection().primary();
-  const Thing thing{text_or(args, "list", primary ? primary->list : ""), text_or(args, "of", primary ? primary->name : "")};
+  const Thing thing{text_or(args, "list", primary ? primary->list : ""),
+                    text_or(args, "of", primary ? primary->name : "")};
   if (thing.name == *name) return {};
   Status done = session.edit("Rename " + thing.name + " to " + *name,
                              {{Edit::Kind::rename, thing.list, thing.name, "", Value(*name)}});
@@ -262,13 +263,15 @@ void add_edit_commands(CommandList& list) {
   add({"edit.redo", "Redo", "Ctrl+Shift+Z", "Do again what was taken back", "redo", true, needs_redo, redo});
   add({"edit.jump", "Go to a step", "", "Anywhere in the history", "", false, needs_project, jump});
   add({"edit.cut", "Cut", "Ctrl+X", "Copy and delete what is selected", "", true, needs_selection, cut});
-  add({"edit.copy", "Copy", "Ctrl+C", "Copy what is selected, also for another project", "", true, needs_selection, copy});
+  add({"edit.copy", "Copy", "Ctrl+C", "Copy what is selected, also for another project", "", true, needs_selection,
+       copy});
   add({"edit.paste", "Paste", "Ctrl+V", "Add what was copied, with its files", "", true, needs_clipboard, paste});
   add({"edit.duplicate", "Duplicate", "Ctrl+D", "A second one of each selected thing", "duplicate", true,
        needs_selection, duplicate});
   add({"edit.delete", "Delete", "Delete", "Remove what is selected", "delete", true, needs_selection, remove});
   add({"edit.rename", "Rename", "F2", "Give the selected thing another name", "", false, needs_project, rename});
-  add({"edit.hide", "Hide or show", "H", "What is hidden is neither drawn nor compiled", "hidden", true, needs_things, hide});
+  add({"edit.hide", "Hide or show", "H", "What is hidden is neither drawn nor compiled", "hidden", true, needs_things,
+       hide});
   add({"edit.show-all", "Show all", "Alt+H", "Bring back everything hidden", "visible", true, needs_project, show_all});
   add({"edit.lock", "Lock or unlock", "L", "What is locked cannot be picked, moved or deleted", "locked", true,
        needs_things, lock});

@@ -147,8 +147,7 @@ Status import(Session& session, const Value& args) {
                      return [&state, brought, replaced, folder, file] {
                        if (!state.document || state.document->folder() != folder) return;
                        if (!*brought) {
-                         state.say(LogLine::Kind::fault,
-                                   "Nothing was imported. " + describe(brought->fault()));
+                         state.say(LogLine::Kind::fault, "Nothing was imported. " + describe(brought->fault()));
                          return;
                        }
                        add_imported(state, **brought, replaced);
@@ -160,7 +159,8 @@ Status import(Session& session, const Value& args) {
 }  // namespace
 
 void add_file_commands(CommandList& list) {
-  list.push_back({"file.new", "New project", "Ctrl+N", "Start from a bare room or a sample", "file", true, always, make_new});
+  list.push_back(
+      {"file.new", "New project", "Ctrl+N", "Start from a bare room or a sample", "file", true, always, make_new});
   list.push_back({"file.open", "Open...", "Ctrl+O", "Open a project", "folder", true, always, open});
   list.push_back({"file.recover", "Recover", "", "Bring back what a crash left", "undo", false, always, recover});
   list.push_back({"file.forget", "Forget", "", "Give up what a crash left", "delete", false, always, forget_left});
@@ -169,7 +169,8 @@ void add_file_commands(CommandList& list) {
                   "save", true, needs_project, save_as});
   list.push_back({"file.import", "Import...", "Ctrl+I", "Bring a mesh into the project; it becomes an object", "import",
                   true, always, import});
-  list.push_back({"file.close", "Close project", "Ctrl+W", "Back to the start screen", "close", true, needs_project, close});
+  list.push_back(
+      {"file.close", "Close project", "Ctrl+W", "Back to the start screen", "close", true, needs_project, close});
   list.push_back({"app.quit", "Quit", "Ctrl+Q", "Leave; unsaved edits are asked about", "", true, always, quit});
 }
 

@@ -77,7 +77,8 @@ Status add_surface(Session& session, const Value& args) {
   const std::string kind = text_or(args, "kind", "plane");
   const auto mesh = mesh_of(kind, true);
   if (!mesh) return mesh.fault();
-  const std::string name = free_name(session.project(), "surfaces", text_or(args, "name", kind == "plane" ? "screen" : kind));
+  const std::string name =
+      free_name(session.project(), "surfaces", text_or(args, "name", kind == "plane" ? "screen" : kind));
   Value item;
   item.set("mesh", *mesh);
   item.set("position_m", value_of(before_viewer(session, 0.6)));
@@ -157,12 +158,17 @@ void add_things_commands(CommandList& list) {
   const auto add = [&](Command command) { list.push_back(command); };
   add({"add.surface", "Add a surface", "", "A real plane to project on", "surface", true, needs_project, add_surface});
   add({"add.object", "Add an object", "", "A virtual object of a kind", "object", false, needs_project, add_object});
-  add({"add.rabbit", "Add a rabbit", "", "A virtual rabbit before the viewer", "object", true, needs_project, add_primitive<3>});
-  add({"add.teapot", "Add a teapot", "", "A virtual teapot before the viewer", "object", true, needs_project, add_primitive<4>});
+  add({"add.rabbit", "Add a rabbit", "", "A virtual rabbit before the viewer", "object", true, needs_project,
+       add_primitive<3>});
+  add({"add.teapot", "Add a teapot", "", "A virtual teapot before the viewer", "object", true, needs_project,
+       add_primitive<4>});
   add({"add.box", "Add a box", "", "A virtual box before the viewer", "object", true, needs_project, add_primitive<1>});
-  add({"add.sphere", "Add a sphere", "", "A virtual sphere before the viewer", "object", true, needs_project, add_primitive<2>});
-  add({"add.plane", "Add a plane", "", "A virtual plane before the viewer", "object", true, needs_project, add_primitive<0>});
-  add({"add.corner", "Add a corner", "", "Two virtual wings that meet", "object", true, needs_project, add_primitive<5>});
+  add({"add.sphere", "Add a sphere", "", "A virtual sphere before the viewer", "object", true, needs_project,
+       add_primitive<2>});
+  add({"add.plane", "Add a plane", "", "A virtual plane before the viewer", "object", true, needs_project,
+       add_primitive<0>});
+  add({"add.corner", "Add a corner", "", "Two virtual wings that meet", "object", true, needs_project,
+       add_primitive<5>});
   add({"add.step", "Add a step", "", "A virtual step", "object", true, needs_project, add_primitive<6>});
   add({"add.light", "Add a light", "", "A sun; point and sky by their kind", "light", true, needs_project, add_light});
   add({"add.slice", "Add a slice", "", "One more power of the sweep", "slice", true, needs_project, add_slice});

@@ -85,7 +85,8 @@ Status move_key(Session& session, const Value& args) {
   std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
   std::vector<Edit> edits{set_edit(thing, "keys", keys_value(keys))};
   const std::string words = "Move a key of " + title_of(thing);
-  return flag_or(args, "dragging", false) ? session.drag(words, std::move(edits)) : session.edit(words, std::move(edits));
+  return flag_or(args, "dragging", false) ? session.drag(words, std::move(edits))
+                                          : session.edit(words, std::move(edits));
 }
 
 Status set_cues(Session& session, const std::string& words, const std::vector<Cue>& cues) {
@@ -104,7 +105,9 @@ Status set_cues(Session& session, const std::string& words, const std::vector<Cu
 Status add_cue(Session& session, const Value& args) {
   std::vector<Cue> cues = session.project().cues;
   std::string name = text_or(args, "name", "cue");
-  const auto taken = [&] { return std::any_of(cues.begin(), cues.end(), [&](const Cue& cue) { return cue.name == name; }); };
+  const auto taken = [&] {
+    return std::any_of(cues.begin(), cues.end(), [&](const Cue& cue) { return cue.name == name; });
+  };
   for (int k = 2; taken(); ++k) name = text_or(args, "name", "cue") + " " + std::to_string(k);
   cues.push_back({name, number_or(args, "time_s", SessionAccess::of(session).frame_time_s()), {}});
   std::stable_sort(cues.begin(), cues.end(), [](const Cue& a, const Cue& b) { return a.time_s < b.time_s; });
@@ -131,10 +134,12 @@ void add_time_commands(CommandList& list) {
   add({"time.next", "Next frame", "Right", "One frame on", "next", true, needs_project, next});
   add({"time.previous", "Previous frame", "Left", "One frame back", "previous", true, needs_project, previous});
   add({"time.first", "First frame", "Home", "Back to the beginning", "first", true, needs_project, first});
-  add({"key.add", "Set a key", "K", "The selected thing stands here at this moment", "key", true, needs_keyable, add_key});
+  add({"key.add", "Set a key", "K", "The selected thing stands here at this moment", "key", true, needs_keyable,
+       add_key});
   add({"key.delete", "Delete the key", "Shift+K", "The key at this moment goes", "", true, needs_keyable, delete_key});
   add({"key.move", "Move a key", "", "", "", false, needs_keyable, move_key});
-  add({"cue.add", "Add a cue", "M", "A name for this moment, to be called from outside", "cue", true, needs_project, add_cue});
+  add({"cue.add", "Add a cue", "M", "A name for this moment, to be called from outside", "cue", true, needs_project,
+       add_cue});
   add({"cue.delete", "Delete a cue", "", "", "", false, needs_project, delete_cue});
 }
 

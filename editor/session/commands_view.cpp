@@ -44,7 +44,9 @@ Status use(Session& session, const Value&) {
 
 Status space(Session& session, const Value&) {
   HandleSpace& now = session.view().space;
-  now = now == HandleSpace::world ? HandleSpace::local : now == HandleSpace::local ? HandleSpace::sight : HandleSpace::world;
+  now = now == HandleSpace::world   ? HandleSpace::local
+        : now == HandleSpace::local ? HandleSpace::sight
+                                    : HandleSpace::world;
   return {};
 }
 
@@ -81,7 +83,7 @@ Status assignment(Session& session, const Value&) {
 
 Status compensation(Session& session, const Value&) {
   auto& now = session.view().compensation;
-  now = now == Compensation::on      ? Compensation::off
+  now = now == Compensation::on    ? Compensation::off
         : now == Compensation::off ? Compensation::difference
                                    : Compensation::on;
   return {};
@@ -106,7 +108,8 @@ Status scrub(Session& session, const Value& args) {
 void add_view_commands(CommandList& list) {
   const auto add = [&](Command command) { list.push_back(command); };
   add({"app.palette", "Find a command", "Ctrl+P", "Every command, by its name", "search", false, always, palette});
-  add({"view.home", "Room from above", "Shift+Home", "The room as it was at the start", "home", true, needs_project, home});
+  add({"view.home", "Room from above", "Shift+Home", "The room as it was at the start", "home", true, needs_project,
+       home});
   add({"view.front", "Room from the viewer", "1", "Along the viewer's gaze", "", true, needs_project, stand<0, 0>});
   add({"view.right", "Room from the right", "3", "From the viewer's right", "", true, needs_project, stand<90, 0>});
   add({"view.top", "Room from the top", "7", "Straight down", "", true, needs_project, stand<0, 90>});
@@ -126,8 +129,8 @@ void add_view_commands(CommandList& list) {
   add({"tool.scale", "Scale", "S", "Handles that scale", "scale", true, needs_project, use<HandleTool::scale>});
   add({"tool.measure", "Measure", "U", "Metres, dioptres and degrees between two points", "measure", true,
        needs_project, use<HandleTool::measure>});
-  add({"tool.space", "World, local or sight axes", "X", "The axes of the handles; sight is what depth means here", "axes",
-       true, needs_project, space});
+  add({"tool.space", "World, local or sight axes", "X", "The axes of the handles; sight is what depth means here",
+       "axes", true, needs_project, space});
   add({"tool.snap", "Snap", "Shift+S", "Moves in steps", "snap", true, needs_project, toggle<&ViewState::snap>});
   add({"view.fill-room", "Fill with the room", "F1", "The room alone, or all four views", "room", true, needs_project,
        fill<PaneId::room>});
@@ -141,8 +144,8 @@ void add_view_commands(CommandList& list) {
   add({"projector.image", "Show an image", "", "", "", false, needs_project, image});
   add({"projector.assignment", "Assignment in false colours", "A", "Which slice lights each pixel", "tint", true,
        needs_project, assignment});
-  add({"projector.compensation", "Breathing compensation on, off, difference", "B", "What compensation does to the images",
-       "difference", true, needs_project, compensation});
+  add({"projector.compensation", "Breathing compensation on, off, difference", "B",
+       "What compensation does to the images", "difference", true, needs_project, compensation});
   add({"sweep.scrub", "Go to a moment of the sweep", "", "", "", false, needs_project, scrub});
 }
 

@@ -1,16 +1,10 @@
 #include "editor/session/edits.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/scene/project_value.h"
 #include "core/stage/stage.h"
 
 namespace focalstage {
 namespace {
-
-/// Two moments nearer than this are the same key: a tenth of a frame at 1000 frames per second.
-constexpr double same_moment_s = 1e-4;
 
 const Placement* placement_of(const Project& project, const Thing& thing) {
   if (thing.list == "viewer") return &project.viewer.placement;
@@ -30,18 +24,6 @@ Value key_value(const Keyframe& key) {
   value.set("rotation_xyzw", value_of(key.pose.rotation));
   for (const auto& [name, kept] : key.unknown) value.set(name, kept);
   return value;
-}
-
-std::vector<Keyframe> with_key(std::vector<Keyframe> keys, const Rigid& pose, double time_s) {
-  const auto at = std::find_if(keys.begin(), keys.end(),
-                               [&](const Keyframe& key) { return std::abs(key.time_s - time_s) < same_moment_s; });
-  if (at != keys.end()) {
-    at->pose = pose;
-    return keys;
-  }
-  const auto later = std::find_if(keys.begin(), keys.end(), [&](const Keyframe& key) { return key.time_s > time_s; });
-  keys.insert(later, {time_s, pose, {}});
-  return keys;
 }
 
 }  // namespace
@@ -72,16 +54,6 @@ Rigid pose_of(const Project& project, const Thing& thing, double time_s) {
     if (thing == Thing{"lights", light.name}) return {light.position_m, {1.0, 0.0, 0.0, 0.0}};
   }
   return {};
-}
-
-std::vector<Edit> pose_edits(const Project& project, const Thing& thing, const Rigid& pose, double time_s) {
-  if (thing.list == "lights") return {set_edit(thing, "position_m", value_of(pose.position_m))};
-  const Placement* placement = placement_of(project, thing);
-  if (placement && !placement->keys.empty()) {
-    return {set_edit(thing, "keys", keys_value(with_key(placement->keys, pose, time_s)))};
-  }
-  return {set_edit(thing, "position_m", value_of(pose.position_m)),
-          set_edit(thing, "rotation_xyzw", value_of(pose.rotation))};
 }
 
 Value item_of(const Project& project, const Thing& thing) {

@@ -22,10 +22,6 @@ Edit set_edit(const Thing& thing, std::string key, Value value);
 /// Where a thing stands at a moment of the show.
 Rigid pose_of(const Project& project, const Thing& thing, double time_s);
 
-/// What makes `thing` stand at `pose` at `time_s`: its own pose, or, where it has keys, the key at that moment, which
-/// is made if there is none.
-std::vector<Edit> pose_edits(const Project& project, const Thing& thing, const Rigid& pose, double time_s);
-
 /// The keys of a placement as its edit carries them.
 Value keys_value(const std::vector<Keyframe>& keys);
 

@@ -33,6 +33,7 @@ Session::State::State(std::function<void()> wake_up, UserFolders user_folders)
       recent(recent_projects(folders)),
       left_behind(recoveries(folders, recent)),
       preview(wake_up),
+      reader(wake_up),
       rig(wake_up, folders.state),
       jobs(wake_up) {}
 
@@ -104,11 +105,19 @@ void Session::State::wish_preview() {
   wish.stage = stage;
   wish.moving = dragging || view.playing;
   wish.uncompensated = view.compensation != Compensation::on;
-  wish.eye = {view.eye != EyeShown::right, view.eye != EyeShown::left, view.focus_d, view.pupil_mm,
-              view.conventional,           view.head_offset_m,         view.fov_deg, eye_size_px.x,
-              eye_size_px.y,               view.sweep_time_s};
+  wish.eye = {view.eye != EyeShown::right,
+              view.eye != EyeShown::left,
+              view.focus_d,
+              view.pupil_mm,
+              view.conventional,
+              view.head_offset_m,
+              view.fov_deg,
+              eye_size_px.x,
+              eye_size_px.y,
+              view.sweep_time_s};
   wish.focus_at = focus_question;
   preview.want(std::move(wish));
+  rig.show({revision(), view.frame, document->history().now(), document->folder()});
 }
 
 void Session::State::take(Document opened) {
@@ -236,6 +245,8 @@ void Session::focus_at(glm::dvec2 at) {
   state_->wish_preview();
 }
 
+void Session::read_pixel(Side side, glm::ivec2 pixel) { state_->reader.ask(slices(), side, pixel); }
+std::shared_ptr<const PixelReading> Session::pixel_reading() const { return state_->reader.answer(); }
 bool Session::compiling() const { return state_->preview.busy(); }
 std::optional<Fault> Session::compile_fault() const { return state_->preview.fault(); }
 const RigLink& Session::rig() const { return state_->rig; }

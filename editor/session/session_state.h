@@ -9,6 +9,7 @@
 
 #include "editor/document/document.h"
 #include "editor/document/recent.h"
+#include "editor/preview/pixel_reader.h"
 #include "editor/preview/preview.h"
 #include "editor/rig/rig_link.h"
 #include "editor/session/jobs.h"
@@ -35,7 +36,7 @@ struct Session::State {
 
   Selection selection;
   ViewState view;
-  Value clipboard;  ///< things as add edits carry them
+  Value clipboard;                         ///< things as add edits carry them
   std::filesystem::path clipboard_folder;  ///< of the project they come from
   std::vector<std::filesystem::path> recent;
   std::vector<Recovery> left_behind;
@@ -66,8 +67,9 @@ struct Session::State {
   double frame_since_s = 0.0;  ///< of the timeline's play
 
   Preview preview;
+  PixelReader reader;
   RigLink rig;
-  Jobs jobs;               ///< last: its threads end first
+  Jobs jobs;  ///< last: its threads end first
 
   const Project& project() const { return document ? document->project() : nothing; }
   std::uint64_t revision() const { return revision_base + (document ? document->history().revision() : 0); }

@@ -165,8 +165,7 @@ Status RigClient::watch(milliseconds interval, const std::function<bool(const Ri
   if (silence.fell_silent()) {
     return Fault{"rig.unreachable", connection_->address(), "the rig fell silent", "look at the rig's log"};
   }
-  if (status.ok()) return Fault{"rig.unreachable", connection_->address(), "the rig has gone", "start it again"};
-  return fault_from(status, connection_->address());
+  return connection_->lost(status);
 }
 
 }  // namespace focalstage

@@ -52,6 +52,13 @@ RigConnection::~RigConnection() {
   (void)call(&v1::Rig::Stub::Release, request, Milliseconds(500));
 }
 
+Fault RigConnection::lost(const grpc::Status& status) const {
+  if (status.ok() || status.error_code() == grpc::StatusCode::CANCELLED) {
+    return {"rig.unreachable", address_, "the rig ended the connection", "see whether it runs, then begin again"};
+  }
+  return fault_from(status, address_);
+}
+
 bool RigConnection::reachable() const { return channel_->GetState(true) == GRPC_CHANNEL_READY; }
 
 Result<std::string> RigConnection::token() {

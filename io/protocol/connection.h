@@ -28,6 +28,9 @@ class RigConnection {
   Milliseconds deadline() const { return deadline_; }
   v1::Rig::Stub& stub() { return *stub_; }
 
+  /// Why a stream ended that this program did not end.
+  Fault lost(const grpc::Status& status) const;
+
   /// Whether the runtime is there, as far as the channel knows; where not, begins to look for it.
   bool reachable() const;
 
@@ -60,6 +63,8 @@ class RigConnection {
     for (int attempt = 0;; ++attempt) {
       const Result<std::string> mine = token();
       if (!mine) return mine.fault();
+      // Whoever was stopped while it took the rig has a lease to give back, and nothing more to ask.
+      if (stop.stop_requested()) return Fault{"rig.cancelled", address_, "was stopped", "ask again"};
       request.set_token(*mine);
       Result<Reply> reply = call(method, request, at_most, stop);
       if (reply || reply.fault().code != "rig.lease" || attempt > 0) return reply;

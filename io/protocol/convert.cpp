@@ -4,6 +4,8 @@
 #include <string_view>
 #include <utility>
 
+#include "io/json/utf8.h"
+
 namespace focalstage {
 
 namespace {
@@ -168,7 +170,7 @@ v1::RigState message_from(const RigState& state) {
   message.set_missed_exposures(state.missed_exposures);
   message.set_lens_phase(state.lens_phase);
   message.set_temperature_c(state.temperature_c);
-  message.set_fault(state.fault);
+  message.set_fault(valid_utf8(state.fault));
   for (const SlotReport& slot : state.slots) *message.add_slots() = message_from(slot);
   message.set_holder(state.holder);
   message.set_frame(state.frame);
@@ -208,11 +210,12 @@ RigState state_from(const v1::RigState& message) {
 }
 
 v1::Fault message_from(const Fault& fault) {
+  // Faults quote what they found in files; a message that is no UTF-8 would never be read at the other end.
   v1::Fault message;
-  message.set_code(fault.code);
-  message.set_where(fault.where);
-  message.set_message(fault.message);
-  message.set_remedy(fault.remedy);
+  message.set_code(valid_utf8(fault.code));
+  message.set_where(valid_utf8(fault.where));
+  message.set_message(valid_utf8(fault.message));
+  message.set_remedy(valid_utf8(fault.remedy));
   return message;
 }
 

@@ -87,8 +87,7 @@ Fault LiveLink::State::end_fault(const grpc::Status& status) const {
   if (silence->fell_silent()) {
     return {"rig.unreachable", connection->address(), "the rig fell silent", "see whether it runs, then begin again"};
   }
-  if (status.ok()) return {"rig.unreachable", connection->address(), "the rig has gone", "start it, then begin again"};
-  return fault_from(status, connection->address());
+  return connection->lost(status);
 }
 
 /// Opens the stream and waits until the rig took it, or said why not.

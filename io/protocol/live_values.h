@@ -25,7 +25,7 @@ struct LiveCompiled {
   bool operator==(const LiveCompiled&) const = default;
 };
 
-/// All light of that sweep was this revision's.
+/// All light of that sweep was this revision's. May come before LiveCompiled.
 struct LiveAppeared {
   std::uint64_t revision = 0;
   int frame = 0;

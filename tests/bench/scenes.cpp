@@ -28,8 +28,10 @@ BenchScene scene(std::string name, StagedSurface surface, std::vector<StagedObje
   made.stage.surfaces = {std::move(surface)};
   made.stage.objects = std::move(objects);
   for (std::size_t i = 0; i < made.stage.objects.size(); ++i) made.stage.objects[i].index = i;
-  made.moved = made.stage;
-  made.moved.objects[0].drawables[0].world_from_mesh[3].x += 0.002;
+  const auto move = [](StagedObject& object) { object.drawables[0].world_from_mesh[3].x += 0.002; };
+  made.one_moved = made.moved = made.stage;
+  move(made.one_moved.objects[0]);
+  for (StagedObject& object : made.moved.objects) move(object);
   made.settings = settings_for(made.stage);
   made.surfaces_hide = surfaces_hide;
   return made;

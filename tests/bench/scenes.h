@@ -13,7 +13,8 @@ struct BenchScene {
   std::string name;
   CompileSettings settings;
   Stage stage;
-  Stage moved;                 ///< the same with its first object elsewhere: nothing of an object may be kept
+  Stage moved;                 ///< the same with every object elsewhere: nothing of an object may be kept
+  Stage one_moved;             ///< only the first object elsewhere
   bool surfaces_hide = false;  ///< the surfaces can stand before one another: the two passes need their depth map
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace focalstage {
@@ -45,7 +46,7 @@ void set_hints(const WindowOptions& options) {
 Fault no_display() {
   const char* reason = nullptr;
   glfwGetError(&reason);
-  return {"display.none", "focalstage-editor", reason != nullptr ? reason : "no window can be opened here",
+  return {"display.none", "the window", reason != nullptr ? reason : "no window can be opened here",
           "start it where there is a display with OpenGL 3.3; every other command of focalstage works without"};
 }
 
@@ -112,6 +113,7 @@ void GlfwWindow::install_callbacks() {
   glfwSetDropCallback(handle_, [](GLFWwindow* handle, int count, const char** paths) {
     window_of(handle).input_.drop({paths, paths + count});
   });
+  glfwSetWindowRefreshCallback(handle_, [](GLFWwindow* handle) { window_of(handle).exposed_ = true; });
   glfwSetWindowFocusCallback(handle_, [](GLFWwindow* handle, int focused) {
     if (focused == GLFW_FALSE) window_of(handle).input_.leave();
   });
@@ -160,6 +162,8 @@ bool GlfwWindow::take_close() {
   glfwSetWindowShouldClose(handle_, GLFW_FALSE);
   return asked;
 }
+
+bool GlfwWindow::take_exposed() { return std::exchange(exposed_, false); }
 
 void GlfwWindow::swap() { glfwSwapBuffers(handle_); }
 

@@ -45,6 +45,9 @@ class GlfwWindow {
   /// Whether the person asked to close it since the last call.
   bool take_close();
 
+  /// Whether the system lost what the window showed since the last call.
+  bool take_exposed();
+
   void swap();
 
  private:
@@ -56,6 +59,7 @@ class GlfwWindow {
   struct Cursors;
   std::unique_ptr<Cursors> cursors_;
   std::string title_;
+  bool exposed_ = false;
 };
 
 }  // namespace focalstage

@@ -14,16 +14,22 @@ struct Named {
 };
 
 constexpr std::array named_keys = {
-    Named{"Space", GLFW_KEY_SPACE},        Named{"Enter", GLFW_KEY_ENTER},    Named{"Escape", GLFW_KEY_ESCAPE},
-    Named{"Esc", GLFW_KEY_ESCAPE},         Named{"Tab", GLFW_KEY_TAB},        Named{"Delete", GLFW_KEY_DELETE},
-    Named{"Del", GLFW_KEY_DELETE},         Named{"Insert", GLFW_KEY_INSERT},  Named{"Backspace", GLFW_KEY_BACKSPACE},
-    Named{"Left", GLFW_KEY_LEFT},          Named{"Right", GLFW_KEY_RIGHT},    Named{"Up", GLFW_KEY_UP},
-    Named{"Down", GLFW_KEY_DOWN},          Named{"Home", GLFW_KEY_HOME},      Named{"End", GLFW_KEY_END},
-    Named{"PageUp", GLFW_KEY_PAGE_UP},     Named{"+", GLFW_KEY_EQUAL},        Named{"=", GLFW_KEY_EQUAL},
-    Named{"PageDown", GLFW_KEY_PAGE_DOWN}, Named{"-", GLFW_KEY_MINUS},        Named{",", GLFW_KEY_COMMA},
-    Named{".", GLFW_KEY_PERIOD},           Named{"/", GLFW_KEY_SLASH},        Named{";", GLFW_KEY_SEMICOLON},
-    Named{"'", GLFW_KEY_APOSTROPHE},       Named{"[", GLFW_KEY_LEFT_BRACKET}, Named{"]", GLFW_KEY_RIGHT_BRACKET},
-    Named{"\\", GLFW_KEY_BACKSLASH},       Named{"`", GLFW_KEY_GRAVE_ACCENT}, Named{"Pause", GLFW_KEY_PAUSE},
+    Named{"Space", GLFW_KEY_SPACE},    Named{"Enter", GLFW_KEY_ENTER},
+    Named{"Escape", GLFW_KEY_ESCAPE},  Named{"Return", GLFW_KEY_ENTER},
+    Named{"Esc", GLFW_KEY_ESCAPE},     Named{"Tab", GLFW_KEY_TAB},
+    Named{"Delete", GLFW_KEY_DELETE},  Named{"Del", GLFW_KEY_DELETE},
+    Named{"Insert", GLFW_KEY_INSERT},  Named{"Backspace", GLFW_KEY_BACKSPACE},
+    Named{"Left", GLFW_KEY_LEFT},      Named{"Right", GLFW_KEY_RIGHT},
+    Named{"Up", GLFW_KEY_UP},          Named{"Down", GLFW_KEY_DOWN},
+    Named{"Home", GLFW_KEY_HOME},      Named{"End", GLFW_KEY_END},
+    Named{"PageUp", GLFW_KEY_PAGE_UP}, Named{"+", GLFW_KEY_EQUAL},
+    Named{"=", GLFW_KEY_EQUAL},        Named{"PageDown", GLFW_KEY_PAGE_DOWN},
+    Named{"-", GLFW_KEY_MINUS},        Named{",", GLFW_KEY_COMMA},
+    Named{".", GLFW_KEY_PERIOD},       Named{"/", GLFW_KEY_SLASH},
+    Named{";", GLFW_KEY_SEMICOLON},    Named{"'", GLFW_KEY_APOSTROPHE},
+    Named{"[", GLFW_KEY_LEFT_BRACKET}, Named{"]", GLFW_KEY_RIGHT_BRACKET},
+    Named{"\\", GLFW_KEY_BACKSLASH},   Named{"`", GLFW_KEY_GRAVE_ACCENT},
+    Named{"Pause", GLFW_KEY_PAUSE},
 };
 
 bool take_prefix(std::string_view& text, std::string_view prefix) {

@@ -103,5 +103,16 @@ TEST_CASE("a fault crosses the wire whole; a broken connection becomes rig.unrea
   CHECK(fault_from({grpc::StatusCode::INTERNAL, "odd", "\xff\xff not a fault"}, "").message == "odd");
 }
 
+TEST_CASE("a fault that quotes bytes which are no text still arrives") {
+  const Fault quoted{"asset.invalid", "mesh.obj", "\"\xff\xfe\" is no number", "mend it"};
+  const Fault readable{"asset.invalid", "mesh.obj", "\"\xef\xbf\xbd\xef\xbf\xbd\" is no number", "mend it"};
+  CHECK(fault_from(status_from(quoted), "") == readable);
+  RigState state;
+  state.fault = quoted.message;
+  v1::RigState read;
+  REQUIRE(read.ParseFromString(message_from(state).SerializeAsString()));
+  CHECK(read.fault() == readable.message);
+}
+
 }  // namespace
 }  // namespace focalstage

@@ -1,4 +1,4 @@
-#include "editor/cli/frame_queue.h"
+#include "editor/pipeline/frame_queue.h"
 
 #include <doctest/doctest.h>
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/stage/stage.h"
-#include "editor/cli/compile_show.h"
+#include "editor/pipeline/compile_show.h"
 #include "io/project/project_file.h"
 #include "io/show/reader.h"
 

@@ -1,4 +1,4 @@
-#include "editor/cli/frame_maker.h"
+#include "editor/pipeline/frame_maker.h"
 
 #include <utility>
 

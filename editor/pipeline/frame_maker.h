@@ -10,8 +10,8 @@
 #include "core/compile/compile.h"
 #include "core/compile/coverage.h"
 #include "core/stage/stage.h"
-#include "editor/cli/image_pool.h"
-#include "editor/cli/source.h"
+#include "editor/pipeline/image_pool.h"
+#include "editor/pipeline/source.h"
 
 namespace focalstage {
 

@@ -1,4 +1,4 @@
-#include "editor/cli/source.h"
+#include "editor/pipeline/source.h"
 
 #include <array>
 #include <fstream>

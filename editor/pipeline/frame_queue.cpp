@@ -1,4 +1,4 @@
-#include "editor/cli/frame_queue.h"
+#include "editor/pipeline/frame_queue.h"
 
 #include <utility>
 

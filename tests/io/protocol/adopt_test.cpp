@@ -1,4 +1,4 @@
-#include "editor/cli/adopt.h"
+#include "io/protocol/adopt.h"
 
 #include <doctest/doctest.h>
 

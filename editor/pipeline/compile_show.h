@@ -8,8 +8,8 @@
 
 #include "core/base/result.h"
 #include "core/scene/finding.h"
-#include "editor/cli/frame_maker.h"
-#include "editor/cli/source.h"
+#include "editor/pipeline/frame_maker.h"
+#include "editor/pipeline/source.h"
 #include "io/show/reader.h"
 #include "io/show/show.h"
 

@@ -1,4 +1,4 @@
-#include "editor/cli/image_pool.h"
+#include "editor/pipeline/image_pool.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "editor/cli/compile_show.h"
+#include "editor/pipeline/compile_show.h"
 
 #include <memory>
 #include <string>
@@ -7,7 +7,7 @@
 #include "core/check/check.h"
 #include "core/optics/image_plan.h"
 #include "core/schedule/schedule.h"
-#include "editor/cli/frame_queue.h"
+#include "editor/pipeline/frame_queue.h"
 #include "io/show/writer.h"
 
 namespace focalstage {
