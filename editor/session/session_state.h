@@ -87,6 +87,7 @@ struct Session::State {
   /// Drops what is selected but is no more.
   void tidy();
   void restage();
+  void fit_views();
   void wish_preview();
 };
 
