@@ -17,6 +17,7 @@ std::span<const Command> commands() {
   static const CommandList list = [] {
     CommandList made;
     add_file_commands(made);
+    add_export_commands(made);
     add_edit_commands(made);
     add_things_commands(made);
     add_time_commands(made);

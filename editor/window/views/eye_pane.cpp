@@ -88,12 +88,15 @@ void EyePane::answer_mouse(Session& session, const PaneRect& rect) {
 void EyePane::draw_chips(Session& session, const PaneRect& rect) {
   const ViewState& view = session.view();
   Chips chips(rect, Chips::Corner::top_right);
-  ButtonStyle kind{.icon = "compare", .down = view.conventional};
+  ButtonStyle kind;
+  kind.icon = "compare";
+  kind.down = view.conventional;
   kind.tip = {"Against a conventional projection: one slice at 0 D, no sweep", "C", {}};
   if (chips.button("conventional", view.conventional ? "Conventional" : "Multifocal", kind)) {
     (void)session.run("eye.conventional");
   }
-  ButtonStyle which{.icon = "eye"};
+  ButtonStyle which;
+  which.icon = "eye";
   which.tip = {"Left eye, right eye, or both red-cyan", "E", {}};
   const char* eye = view.eye == EyeShown::left ? "Left" : view.eye == EyeShown::right ? "Right" : "Red-cyan";
   if (chips.button("which", eye, which)) (void)session.run("eye.which");

@@ -123,10 +123,14 @@ void ProjectorPane::draw_chips(Session& session, const PaneRect& area) {
   const auto slices = session.slices();
   ViewState& view = session.view();
   Chips top(area, Chips::Corner::top_right);
-  ButtonStyle assignment{.icon = "assignment", .down = view.picture == ProjectorPicture::assignment};
+  ButtonStyle assignment;
+  assignment.icon = "assignment";
+  assignment.down = view.picture == ProjectorPicture::assignment;
   assignment.tip = {"Which slice lights each pixel, in false colours", "A", {}};
   if (top.button("assignment", "Assignment", assignment)) (void)session.run("projector.assignment");
-  ButtonStyle compensation{.icon = "compare", .down = view.compensation != Compensation::on};
+  ButtonStyle compensation;
+  compensation.icon = "compare";
+  compensation.down = view.compensation != Compensation::on;
   compensation.tip = {"Breathing compensation: on, off, and what it changes", "B", {}};
   const char* words = view.compensation == Compensation::on    ? "Compensated"
                       : view.compensation == Compensation::off ? "Not compensated"
@@ -137,7 +141,8 @@ void ProjectorPane::draw_chips(Session& session, const PaneRect& area) {
   if (view.picture == ProjectorPicture::slice) bottom.label("", image_words(spec));
   if (slices->divisor > 1) bottom.label("", slices->divisor == 2 ? "half size" : "quarter size");
   if (view.zoom > 0.0) {
-    ButtonStyle fit{.icon = "fill"};
+    ButtonStyle fit;
+    fit.icon = "fill";
     fit.tip = {"The whole image again", {}, {}};
     if (bottom.button("fit", fixed_text(view.zoom, 1) + "x", fit)) view.zoom = 0.0;
   }

@@ -108,7 +108,7 @@ void TimePane::draw_axes(const Axes& axes) const {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const glm::vec2 min = axes.plot.min, max = axes.plot.min + axes.plot.size;
   const double span_d = axes.high_d - axes.low_d;
-  const double power_step_d = step_of(span_d, std::max(2.0, axes.plot.size.y / px(28)));
+  const double power_step_d = step_of(span_d, std::max(2.0, double(axes.plot.size.y / px(28))));
   for (double d = std::ceil(axes.low_d / power_step_d) * power_step_d; d <= axes.high_d; d += power_step_d) {
     const bool zero = std::abs(d) < 1e-9;
     list.AddLine({min.x, axes.y(d)}, {max.x, axes.y(d)}, zero ? theme::faint : theme::line);
@@ -116,7 +116,7 @@ void TimePane::draw_axes(const Axes& axes) const {
     const glm::vec2 size = small_text_size(text);
     small_text(list, {min.x - size.x - px(6), axes.y(d) - 0.5f * size.y}, text, theme::dim);
   }
-  const double time_step_ms = step_of(axes.period_s * 1e3, std::max(2.0, axes.plot.size.x / px(48)));
+  const double time_step_ms = step_of(axes.period_s * 1e3, std::max(2.0, double(axes.plot.size.x / px(48))));
   for (double ms = 0.0; ms <= axes.period_s * 1e3 + 1e-6; ms += time_step_ms) {
     const float x = axes.x(ms * 1e-3);
     list.AddLine({x, max.y}, {x, max.y + px(4)}, theme::faint);
@@ -240,7 +240,8 @@ void TimePane::scrub(Session& session, const Axes& axes) {
   list.AddLine({x, axes.plot.min.y}, {x, axes.plot.min.y + axes.plot.size.y + axes.lanes_px}, theme::accent, px(1.5f));
   Chips chips({{axes.plot.min.x, axes.plot.min.y - px(36)}, axes.plot.size + glm::vec2(0.0f, px(36))},
               Chips::Corner::top_right);
-  ButtonStyle whole{.icon = "close"};
+  ButtonStyle whole;
+  whole.icon = "close";
   whole.tip = {"The whole sweep again", {}, {}};
   if (chips.button("whole sweep", fixed_text(*session.view().sweep_time_s * 1e3, 2) + " ms", whole)) {
     session.view().sweep_time_s.reset();

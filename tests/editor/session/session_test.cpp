@@ -11,6 +11,8 @@
 #include <thread>
 
 #include "editor/session/edits.h"
+#include "io/files/files.h"
+#include "io/image/png.h"
 #include "io/project/project_file.h"
 
 using namespace focalstage;
@@ -227,6 +229,26 @@ TEST_CASE("a broken mesh is refused in words, and a good one becomes an object")
   REQUIRE(wait(session, [&] { return session.project().objects.size() == 3; }));
   REQUIRE(wait_compiled(session));
   CHECK(session.stage()->objects.size() == 3);
+}
+
+TEST_CASE("what a client should see is written as pictures") {
+  const Home home;
+  Session session([] {});
+  open_sample(session, "first-light");
+  REQUIRE(wait_compiled(session));
+  const auto count = [&] {
+    std::error_code none;
+    return std::distance(fs::directory_iterator(home.path / "out", none), fs::directory_iterator());
+  };
+  REQUIRE(session.run("export.stereo", args({{"path", (home.path / "out").string()}})).ok());
+  REQUIRE(wait(session, [&] { return count() == 4 && session.tasks().empty(); }));
+  const auto bytes = read_file(home.path / "out" / "stereo-side-by-side.png", 1u << 26);
+  REQUIRE(bytes.ok());
+  const auto both = decode_image(*bytes, "both");
+  REQUIRE(both.ok());
+  CHECK(both->width_px == 2560);
+  REQUIRE(session.run("export.focal-pull", args({{"path", (home.path / "out").string()}, {"frames", 3.0}})).ok());
+  REQUIRE(wait(session, [&] { return count() >= 7 && session.tasks().empty(); }));
 }
 
 TEST_CASE("what cannot be opened costs nothing of what is open") {
