@@ -112,7 +112,7 @@ TEST_CASE("dragging far beyond an edge leaves every part its least size") {
   const glm::ivec2 size(1600, 900);
   for (const auto kind : {Splitter::Kind::outline, Splitter::Kind::properties, Splitter::Kind::bottom,
                           Splitter::Kind::across, Splitter::Kind::down}) {
-    for (const glm::vec2 pointer : {glm::vec2(-5000.0f), glm::vec2(5000.0f)}) {
+    for (const glm::vec2& pointer : {glm::vec2(-5000.0f), glm::vec2(5000.0f)}) {
       const Layout before = lay_out(size, 1.0, Splits{}, std::nullopt, true);
       const Layout after = lay_out(size, 1.0, dragged(before, Splits{}, kind, pointer, 1.0), std::nullopt, true);
       REQUIRE(after.outline.has_value());
