@@ -20,11 +20,15 @@ const Light* light_of(const PropertyScope& scope, const Thing& thing) {
   return at == lights.end() ? nullptr : &*at;
 }
 
+/// Straight up or down the azimuth would be lost.
+constexpr double highest_deg = 89.9;
+
 /// Whichever of the two angles the row is, the other stays.
 std::vector<Edit> set_source(const PropertyScope& scope, const Thing& thing, const Property& row, const Value& value) {
   const Light* light = light_of(scope, thing);
   if (!light || !value.number()) return {};
   glm::dvec2 angles_deg = source_of(light->direction);
+  angles_deg.y = std::clamp(angles_deg.y, -highest_deg, highest_deg);
   (row.id == "azimuth" ? angles_deg.x : angles_deg.y) = *value.number();
   return {set_edit(thing, "direction", value_of(direction_from(angles_deg)))};
 }
@@ -44,8 +48,7 @@ void add_source_rows(PropertyRows& rows, const Light& light) {
     row.help = help;
   };
   add("azimuth", angles_deg.x, 360.0, "Where the light comes from: 0 from behind the viewer, 90 from the right.");
-  // Straight up the azimuth would be lost.
-  add("elevation", angles_deg.y, 89.9, "How high above the horizon the light comes from.");
+  add("elevation", angles_deg.y, highest_deg, "How high above the horizon the light comes from.");
 }
 
 // Slices --------------------------------------------------------------------------------------------------------------

@@ -63,7 +63,8 @@ class PropertyRows {
   /// A number at a key of the item: `Struct` is what holds the key's last name.
   template <class Struct>
   Property& number(std::string label, std::string key, const NumberLook& look) {
-    return number_with(key_facts<Struct>(last_name(key)), std::move(label), std::move(key), look);
+    const KeyFacts facts = key_facts<Struct>(last_name(key));
+    return number_with(facts, std::move(label), std::move(key), look);
   }
   Property& number_with(const KeyFacts& facts, std::string label, std::string key, const NumberLook& look);
   Property& text(std::string label, std::string key);
