@@ -7,6 +7,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "core/stage/stage.h"
+#include "editor/session/edits.h"
 #include "editor/session/session_state.h"
 #include "editor/tools/pick.h"
 #include "editor/tools/room_camera.h"
@@ -68,6 +69,8 @@ Status Session::State::apply(std::string words, std::vector<Edit> edits, Joining
 void Session::State::tidy() {
   std::erase_if(selection.things, [&](const Thing& thing) { return !exists(project(), thing); });
   view.frame = std::clamp(view.frame, 0, std::max(0, project().frames.count - 1));
+  if (view.renaming && !exists(project(), *view.renaming)) view.renaming.reset();
+  if (view.key_time_s && !has_key_at(project(), selection.primary(), *view.key_time_s)) view.key_time_s.reset();
 }
 
 void Session::State::restage() {
@@ -134,6 +137,8 @@ void Session::State::take(Document opened) {
   document.emplace(std::move(opened));
   selection = {};
   const ViewState fresh;
+  view.renaming.reset();
+  view.key_time_s.reset();
   view.frame = 0;
   view.playing = false;
   view.filled = fresh.filled;
@@ -256,6 +261,7 @@ const std::shared_ptr<const Stage>& Session::stage() const { return state_->stag
 const Selection& Session::selection() const { return state_->selection; }
 
 void Session::select(std::vector<Thing> things) {
+  if (things != state_->selection.things) state_->view.key_time_s.reset();
   state_->selection.things = std::move(things);
   state_->tidy();
 }
@@ -293,6 +299,7 @@ FileWish Session::file_wish() const { return state_->file_wish; }
 
 void Session::forget_file_wish() {
   state_->file_wish = FileWish::none;
+  state_->import_replaces = {};
   state_->after_save = nullptr;
 }
 
