@@ -51,6 +51,8 @@ struct ViewState {
   int frame = 0;
   bool playing = false;  ///< the timeline, not the rig
 
+  std::string bottom_tab = "findings";  ///< the panel shown below the views
+
   bool operator==(const ViewState&) const = default;
 };
 

@@ -120,7 +120,8 @@ void Editor::frame(const FrameKind& kind) {
 
 void Editor::follow_shortcuts() {
   const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantTextInput || session_.question()) return;
+  const bool asked = session_.question() != nullptr || session_.file_wish() != FileWish::none || session_.palette_open();
+  if (io.WantTextInput || asked) return;
   for (const KeyChord& chord : window_->input().pressed()) {
     for (const Command& command : commands()) {
       if (command.shortcut.empty() || !same_chord(chord, command.shortcut)) continue;
