@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/check/words.h"
+#include "core/scene/pointer.h"
 #include "editor/session/thing.h"
 
 namespace focalstage {
@@ -213,6 +214,17 @@ std::string edit_words(const std::vector<Edit>& edits, const Project& project) {
   }
   if (edits.size() > most) sentence += " and " + std::to_string(edits.size() - most) + " more";
   return sentence;
+}
+
+std::string place_words(const std::string& pointer, const Project& project) {
+  const std::vector<std::string> steps = pointer_steps(pointer);
+  const Thing thing = thing_at(project, pointer);
+  const std::vector<double>& powers_d = project.slices.powers_d;
+  if (thing.list == "slices" && steps.size() == 3 && steps[1] == "powers_d") {
+    const auto index = index_in(steps[2]);
+    if (index && *index < powers_d.size()) return "Slice at " + words(powers_d[*index]) + " D";
+  }
+  return title_of(thing);
 }
 
 }  // namespace focalstage

@@ -14,4 +14,7 @@ std::string edit_words(const Edit& edit, const Project& project);
 /// The same for all edits of a step, in a sentence.
 std::string edit_words(const std::vector<Edit>& edits, const Project& project);
 
+/// The place that a finding's pointer leads to, as a designer calls it: "rabbit", "Slice at 0.5 D", "Sweep".
+std::string place_words(const std::string& pointer, const Project& project);
+
 }  // namespace focalstage

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "editor/session/session.h"
 #include "editor/window/app/frame_painter.h"
 #include "editor/window/base/chips.h"
 #include "editor/window/base/icons.h"

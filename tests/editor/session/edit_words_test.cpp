@@ -86,3 +86,15 @@ TEST_CASE("several edits are one sentence that does not grow without end") {
   CHECK(edit_words(five, project) == "Hide a, hide a, hide a and 2 more");
   CHECK(edit_words(std::vector<Edit>{}, project).empty());
 }
+
+TEST_CASE("places are said by what stands there") {
+  Project project = three_slices();
+  project.objects.resize(2);
+  project.objects[1].name = "rabbit";
+  CHECK(place_words("/slices/powers_d/2", project) == "Slice at 1 D");
+  CHECK(place_words("/slices/powers_d/3", project) == "Slices");
+  CHECK(place_words("/objects/1/depth/vergence_d", project) == "rabbit");
+  CHECK(place_words("/sweep/frequency_hz", project) == "Sweep");
+  CHECK(place_words("", project) == "Project");
+  CHECK(place_words("/objects/7", project) == "Project");
+}
