@@ -59,6 +59,7 @@ struct Session::State {
   bool quitting = false;
   bool palette_open = false;
   FileWish file_wish = FileWish::none;
+  Thing import_replaces;             ///< whose mesh the file to be asked for becomes; no name: a new object
   std::function<void()> after_save;  ///< what waits for an untitled project to get its place
 
   double now_s = 0.0;
@@ -87,6 +88,7 @@ struct Session::State {
   /// Drops what is selected but is no more.
   void tidy();
   void restage();
+  void fit_views();
   void wish_preview();
 };
 

@@ -58,6 +58,14 @@ Fixture viewer_fixture(const Project& project, const Stage& stage) {
   Fixture fixture{{"viewer", ""}, pose, {}};
   fixture.drawables.push_back(
       part(SphereMesh{1.0}, glm::scale(at(pose, {0.0, 0.005, 0.088}), glm::dvec3(0.076, 0.112, 0.092)), skin));
+  // Nose, neck and ears: without them a head is an egg.
+  const auto round = [&](const glm::dvec3& centre_m, const glm::dvec3& radii_m) {
+    fixture.drawables.push_back(part(SphereMesh{1.0}, glm::scale(at(pose, centre_m), radii_m), skin));
+  };
+  round({0.0, -0.038, -0.004}, {0.013, 0.024, 0.018});
+  round({0.0, -0.125, 0.105}, {0.050, 0.080, 0.052});
+  round({-0.077, -0.010, 0.088}, {0.009, 0.030, 0.020});
+  round({0.077, -0.010, 0.088}, {0.009, 0.030, 0.020});
   for (const double x_m : {-half_m, half_m}) {
     Drawable ring = part(BoxMesh{}, at(pose, {x_m, 0.0, lens_m}), dark);
     ring.mesh = rim_mesh;
@@ -78,9 +86,9 @@ Fixture viewer_fixture(const Project& project, const Stage& stage) {
 Fixture projector_fixture(const Projector& projector) {
   Fixture fixture{{"projectors", projector.name}, projector.pose, {}};
   fixture.drawables.push_back(
-      part(BoxMesh{{0.17, 0.075, 0.13}}, at(projector.pose, {0.0, 0.0, 0.085}), {0.10, 0.105, 0.115}));
+      part(BoxMesh{{0.13, 0.055, 0.10}}, at(projector.pose, {0.0, 0.0, 0.068}), {0.10, 0.105, 0.115}));
   fixture.drawables.push_back(
-      part(SphereMesh{1.0}, glm::scale(at(projector.pose, {0.0, 0.0, 0.012}), glm::dvec3(0.024, 0.024, 0.012)), glass));
+      part(SphereMesh{1.0}, glm::scale(at(projector.pose, {0.0, 0.0, 0.012}), glm::dvec3(0.020, 0.020, 0.012)), glass));
   return fixture;
 }
 

@@ -15,7 +15,10 @@
 namespace focalstage {
 namespace {
 
-constexpr float longest_label_px = 260.0f;
+constexpr double longest_label_px = 420.0;
+// What the chips in the upper left corner take.
+constexpr double toolbar_width_px = 290.0;
+constexpr double toolbar_height_px = 76.0;
 
 /// Both ends in pixels, cut at the near plane; none where all of it lies before that.
 std::optional<std::pair<glm::dvec2, glm::dvec2>> ends_px(const RoomView& view, glm::dvec3 a_m, glm::dvec3 b_m) {
@@ -36,6 +39,7 @@ std::optional<std::pair<glm::dvec2, glm::dvec2>> ends_px(const RoomView& view, g
 
 RoomDrawing::RoomDrawing(const RoomFrame& frame) : frame_(frame), list_(*ImGui::GetWindowDrawList()) {
   const PaneRect& rect = frame.rect;
+  taken_.push_back({{rect.min.x, rect.min.y}, {rect.min.x + px(toolbar_width_px), rect.min.y + px(toolbar_height_px)}});
   list_.PushClipRect({rect.min.x, rect.min.y}, {rect.min.x + rect.size.x, rect.min.y + rect.size.y}, true);
 }
 

@@ -59,12 +59,12 @@ struct GridLines {
   void add(glm::dvec2 from, glm::dvec2 to, const glm::dvec3& rgb) {
     const glm::dvec3 ground = theme::rgb(theme::view);
     const glm::dvec2 middle = 0.5 * (floor.low_m + floor.high_m);
-    const double reach_m = 0.55 * glm::length(floor.high_m - floor.low_m);
+    const double reach_m = 0.62 * glm::length(floor.high_m - floor.low_m);
     const int pieces = std::max(1, static_cast<int>(std::ceil(glm::length(to - from) * pieces_per_m)));
     cells.InsertNextCell(pieces + 1);
     for (int i = 0; i <= pieces; ++i) {
       const glm::dvec2 at = glm::mix(from, to, static_cast<double>(i) / pieces);
-      const double fade = std::clamp(1.25 - 1.25 * glm::length(at - middle) / reach_m, 0.0, 1.0);
+      const double fade = std::clamp(1.5 - 1.5 * glm::length(at - middle) / reach_m, 0.0, 1.0);
       cells.InsertCellPoint(points.InsertNextPoint(at.x, floor.height_m, at.y));
       add_colour(colour, glm::mix(ground, rgb, fade));
     }
@@ -96,8 +96,8 @@ void RoomFloor::show(const Floor& floor) {
   if (any_ && shown_ == floor) return;
   any_ = true;
   shown_ = floor;
-  const glm::dvec3 fine(0.135, 0.142, 0.155);
-  const glm::dvec3 metre(0.235, 0.247, 0.270);
+  const glm::dvec3 fine(0.155, 0.163, 0.178);
+  const glm::dvec3 metre(0.30, 0.315, 0.345);
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> cells;
   const auto colour = colours(4);

@@ -41,6 +41,10 @@ void draw_floor_marks(const RoomFrame& frame, RoomDrawing& drawing) {
     glm::dvec3 at_m = viewer.position_m + static_cast<double>(metre) * ahead;
     at_m.y = floor.height_m;
     if (at_m.x < floor.low_m.x || at_m.x > floor.high_m.x || at_m.z < floor.low_m.y || at_m.z > floor.high_m.y) break;
+    const glm::dvec3 way = at_m - frame.view.world_from_camera.position_m;
+    const Ray sight{frame.view.world_from_camera.position_m, glm::normalize(way)};
+    const auto before = frame.scene.picker().first(frame.stage, sight);
+    if (before && before->distance_m < glm::length(way)) continue;  // hidden
     const glm::dvec3 side = 0.03 * glm::cross(ahead, glm::dvec3(0.0, 1.0, 0.0));
     drawing.line(at_m - side, at_m + side, theme::with_alpha(theme::dim, 0.8), 1.5);
     if (const auto pixel = pixel_of(frame.view, at_m + 2.4 * side)) {

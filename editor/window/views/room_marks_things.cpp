@@ -66,6 +66,7 @@ void draw_names(const RoomFrame& frame, const RoomHands& hands, RoomDrawing& dra
   if (hands.busy()) return;  // names would only be in the way of the hand
   int named = 0;
   for (auto thing = selection.things.rbegin(); thing != selection.things.rend() && named < most_names; ++thing) {
+    if (hands.depth && thing->list == "objects" && thing->name == hands.depth->object) continue;  // told there
     name_it({thing->list, thing->name}, theme::text);
     ++named;
   }
@@ -112,7 +113,8 @@ void draw_depth(const RoomFrame& frame, const RoomHands& hands, RoomDrawing& dra
                                 ? "focus " + fixed_text(reading.accommodation_d, 2) + " D, " +
                                       fixed_text(1.0 / reading.accommodation_d, 2) + " m"
                                 : "focus beyond infinity";
-  std::string words = focus + "   vergence " + fixed_text(reading.vergence_d, 2) + " D";
+  std::string words = hands.busy() ? focus : depth.object + "   " + focus;
+  words += "   vergence " + fixed_text(reading.vergence_d, 2) + " D";
   if (std::abs(reading.conflict_d) >= 0.005) words += "   conflict " + signed_text(reading.conflict_d, 2) + " D";
   if (!words_px) {
     const auto pixel = pixel_of(frame.view, hands.handle_frame.origin_m);

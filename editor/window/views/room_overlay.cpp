@@ -95,9 +95,9 @@ void RoomOverlay::draw(const RoomFrame& frame, const RoomHands& hands) {
   draw_gaze(frame, drawing);
   draw_picture_edge(frame, drawing);
   draw_outlines(frame, hands, drawing);
+  draw_depth(frame, hands, drawing);
   draw_names(frame, hands, drawing);
   draw_sheet_labels(frame, drawing);
-  draw_depth(frame, hands, drawing);
   draw_handles(frame, hands, drawing);
   draw_measure(frame, hands, drawing);
   draw_box(frame, hands, drawing);

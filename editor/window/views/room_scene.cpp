@@ -163,7 +163,7 @@ void RoomScene::render(const RoomView& view, const Session& session, bool moving
   actors_.set_coarse(meshes_, moving);
   actors_.set_visible("viewer", !through_viewer);
   actors_.set_visible("projectors", state.look_through != LookThrough::projector);
-  if (state.show_sheets && !through_viewer) {
+  if (state.show_sheets && state.look_through == LookThrough::nothing) {
     sheet_faces_.show(sheets_, session.project().slices.powers_d, view);
   } else {
     sheet_faces_.hide();
