@@ -33,6 +33,8 @@ Session::State::State(std::function<void()> wake_up, UserFolders user_folders)
       folders(std::move(user_folders)),
       recent(recent_projects(folders)),
       left_behind(recoveries(folders, recent)),
+      recent_rigs(focalstage::recent_rigs(folders)),
+      sample_cards(make_sample_cards()),
       preview(wake_up),
       rig(wake_up, folders.state),
       jobs(wake_up) {}
@@ -255,10 +257,18 @@ std::optional<Fault> Session::compile_fault() const { return state_->preview.fau
 const RigLink& Session::rig() const { return state_->rig; }
 const Log& Session::log() const { return state_->log; }
 const std::vector<Task>& Session::tasks() const { return state_->jobs.tasks(); }
+void Session::cancel_task(int id) { state_->jobs.cancel(id); }
 const std::optional<LogLine>& Session::notice() const { return state_->notice; }
 void Session::dismiss_notice() { state_->notice.reset(); }
 const std::vector<std::filesystem::path>& Session::recent() const { return state_->recent; }
 const std::vector<Recovery>& Session::left_behind() const { return state_->left_behind; }
+const std::vector<SampleCard>& Session::sample_cards() const { return state_->sample_cards; }
+
+void Session::want_sample_pictures() {
+  if (!state_->drawing_samples) state_->draw_next_sample();
+}
+
+const std::vector<std::string>& Session::recent_rigs() const { return state_->recent_rigs; }
 bool Session::palette_open() const { return state_->palette_open; }
 void Session::close_palette() { state_->palette_open = false; }
 FileWish Session::file_wish() const { return state_->file_wish; }

@@ -12,6 +12,7 @@
 #include "editor/preview/preview.h"
 #include "editor/rig/rig_link.h"
 #include "editor/session/jobs.h"
+#include "editor/session/sample_cards.h"
 #include "editor/session/session.h"
 
 namespace focalstage {
@@ -39,6 +40,10 @@ struct Session::State {
   std::filesystem::path clipboard_folder;  ///< of the project they come from
   std::vector<std::filesystem::path> recent;
   std::vector<Recovery> left_behind;
+  std::vector<std::string> recent_rigs;
+  std::vector<SampleCard> sample_cards;
+  std::size_t samples_drawn = 0;
+  bool drawing_samples = false;
 
   bool dragging = false;
   bool drag_has_step = false;
@@ -87,6 +92,8 @@ struct Session::State {
   void tidy();
   void restage();
   void wish_preview();
+  /// The picture of the next sample that has none yet.
+  void draw_next_sample();
 };
 
 struct SessionAccess {
