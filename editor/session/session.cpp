@@ -317,6 +317,7 @@ bool Session::wants_to_quit() const { return state_->quitting; }
 
 std::vector<Finding> Session::findings() const {
   std::vector<Finding> findings = state_->asset_findings;
+  findings.insert(findings.end(), state_->rig_findings.begin(), state_->rig_findings.end());
   if (const auto known = checked()) findings.insert(findings.end(), known->findings.begin(), known->findings.end());
   return findings;
 }

@@ -90,7 +90,7 @@ Step select_step(Line& line) {
 }
 
 Step wait_step(Line& line) {
-  const char* form = "wait compile|tasks|rig STATE [within SECONDS], or wait seconds N";
+  const char* form = "wait compile|push|tasks|rig STATE [within SECONDS], or wait seconds N";
   WaitFor step;
   const std::string what = line.words.take();
   if (what == "seconds") {
@@ -102,6 +102,8 @@ Step wait_step(Line& line) {
     step.what = WaitFor::What::rig;
     step.state = line.words.take();
     if (step.state.empty()) return line.wrong(form);
+  } else if (what == "push") {
+    step.what = WaitFor::What::push;
   } else if (what == "tasks" || what == "task") {
     step.what = WaitFor::What::tasks;
   } else if (what != "compile") {

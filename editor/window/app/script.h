@@ -44,7 +44,7 @@ struct SelectThing {
   std::string name;
 };
 struct WaitFor {
-  enum class What { compile, rig, seconds, tasks };
+  enum class What { compile, push, rig, seconds, tasks };
   What what = What::compile;
   std::string state;      ///< of the rig
   double seconds = 30.0;  ///< how long, or how long at most
