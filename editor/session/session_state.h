@@ -9,6 +9,7 @@
 
 #include "editor/document/document.h"
 #include "editor/document/recent.h"
+#include "editor/preview/pixel_reader.h"
 #include "editor/preview/preview.h"
 #include "editor/rig/rig_link.h"
 #include "editor/session/jobs.h"
@@ -63,6 +64,7 @@ struct Session::State {
   bool quitting = false;
   bool palette_open = false;
   FileWish file_wish = FileWish::none;
+  Thing import_replaces;             ///< whose mesh the file to be asked for becomes; no name: a new object
   std::function<void()> after_save;  ///< what waits for an untitled project to get its place
 
   double now_s = 0.0;
@@ -71,6 +73,7 @@ struct Session::State {
   double frame_since_s = 0.0;  ///< of the timeline's play
 
   Preview preview;
+  PixelReader reader;
   RigLink rig;
   Jobs jobs;  ///< last: its threads end first
 
@@ -90,6 +93,7 @@ struct Session::State {
   /// Drops what is selected but is no more.
   void tidy();
   void restage();
+  void fit_views();
   void wish_preview();
   /// The picture of the next sample that has none yet.
   void draw_next_sample();
