@@ -83,7 +83,7 @@ class StartPanel final : public Panel {
     open.icon = "folder";
     command_button(session, "file.open", "Open", "Open…", open);
     ImGui::Dummy({0.0f, px(2)});
-    paragraph("Or drop a project's folder here.", theme::faint);
+    paragraph("Or drop a project's folder here.", theme::dim);
     ImGui::Dummy({0.0f, px(10)});
   }
 
