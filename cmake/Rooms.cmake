@@ -33,19 +33,20 @@ focalstage_room(devices/runtime USES devices/player devices/sim io/show io/proje
 
 # editor: what people touch
 focalstage_room(editor/samples  USES io/files core/base)
-focalstage_room(editor/pipeline USES io/project io/assets io/show core/check core/reference core/compile core/schedule)
+focalstage_room(editor/pipeline USES io/project io/assets io/show core/check core/reference core/compile core/retina
+                                     core/schedule)
 focalstage_room(editor/cli      USES editor/samples editor/pipeline io/project io/assets io/show io/export io/protocol
                                      core/check core/reference core/compile core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
 focalstage_room(editor/document USES editor/samples io/journal io/project io/assets io/files core/scene)
-focalstage_room(editor/preview  USES core/check core/compile core/retina core/schedule core/stage)
+focalstage_room(editor/preview  USES core/check core/compile core/reference core/retina core/schedule core/stage)
 focalstage_room(editor/rig      USES io/protocol io/project io/assets io/files)
 focalstage_room(editor/tools    USES core/compile core/stage core/optics core/scene core/mesh)
 focalstage_room(editor/session  USES editor/tools editor/document editor/preview editor/rig editor/pipeline io/export io/image)
 
 # the window: GLFW, Dear ImGui and VTK live here and nowhere else
 focalstage_room(editor/window/base   USES editor/session           LIBS imgui::imgui vtk::vtk PRIVATE_LIBS epoxy::epoxy)
-focalstage_room(editor/window/views  USES editor/window/base)
+focalstage_room(editor/window/views  USES editor/window/base editor/tools)
 focalstage_room(editor/window/panels USES editor/window/base)
 focalstage_room(editor/window/app    USES editor/window/views editor/window/panels
                                      PRIVATE_LIBS glfw::glfw epoxy::epoxy CLI11::CLI11)

@@ -11,7 +11,7 @@ namespace focalstage {
 namespace {
 
 constexpr double nearest_lit_m = 1e-3;    ///< as the compiler's
-constexpr double smooth_share = 1e-3;     ///< of the depth: faces that go on within this much cast no edge
+constexpr double smooth_share = 5e-4;     ///< of the depth: faces that go on within this much cast no edge
 constexpr double hidden_by_share = 1e-4;  ///< what is nearer by less than this is the surface itself
 
 /// The rectangle of the tangent plane that the image covers, distorted as it may be, at the image's resolution.
@@ -48,6 +48,17 @@ ProjectorLight::ProjectorLight(const SurfaceMesh& mesh, const ProjectorModel& pr
   mark_blocks();
 }
 
+/// Whether two faces lie at about one depth along both looks: a surface that bends little between them.
+bool ProjectorLight::goes_on(std::uint32_t a, std::uint32_t b, const glm::dvec2& one, const glm::dvec2& other) const {
+  if (a == b) return true;
+  if (b == SurfaceRaster::nothing) return false;
+  const auto alike = [&](const glm::dvec2& look) {
+    const double inverse_m = raster_.faces[a].inverse_depth(look);
+    return std::abs(raster_.faces[b].inverse_depth(look) - inverse_m) <= smooth_share * inverse_m;
+  };
+  return alike(one) && alike(other);
+}
+
 void ProjectorLight::mark_edges() {
   const LookGrid& grid = raster_.grid;
   nearest_inverse_m_.assign(raster_.nearest.size(), -1.0f);
@@ -55,14 +66,11 @@ void ProjectorLight::mark_edges() {
     for (int column = 1; column + 1 < grid.width_px; ++column) {
       const std::uint32_t own = raster_.at(column, row);
       if (own == SurfaceRaster::nothing) continue;
-      const glm::dvec2 look = grid.look(column, row);
-      const double inverse_m = raster_.faces[own].inverse_depth(look);
+      const double inverse_m = raster_.faces[own].inverse_depth(grid.look(column, row));
       bool smooth = true;
       for (int i = 0; i < 9 && smooth; ++i) {
-        const std::uint32_t face = raster_.at(column + i % 3 - 1, row + i / 3 - 1);
-        if (face == own) continue;
-        smooth = face != SurfaceRaster::nothing &&
-                 std::abs(raster_.faces[face].inverse_depth(look) - inverse_m) <= smooth_share * inverse_m;
+        const int x = column + i % 3 - 1, y = row + i / 3 - 1;
+        smooth = goes_on(own, raster_.at(x, y), grid.look(column, row), grid.look(x, y));
       }
       nearest_inverse_m_[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width_px) +
                          static_cast<std::size_t>(column)] = static_cast<float>(smooth ? inverse_m : -inverse_m);
@@ -93,8 +101,8 @@ void ProjectorLight::mark_blocks() {
 }
 
 /// Each face seen in the pixel and its neighbours is asked whether it stands before the very spot.
-bool ProjectorLight::shadowed_near_edge(const glm::dvec2& tangent, int column, int row, double inverse_m,
-                                        std::uint32_t face) const {
+bool ProjectorLight::shadowed_by_one(const glm::dvec2& tangent, int column, int row, double inverse_m,
+                                     std::uint32_t face) const {
   const LookGrid& grid = raster_.grid;
   for (int y = std::max(0, row - 1); y <= std::min(grid.height_px - 1, row + 1); ++y) {
     for (int x = std::max(0, column - 1); x <= std::min(grid.width_px - 1, column + 1); ++x) {
@@ -107,7 +115,7 @@ bool ProjectorLight::shadowed_near_edge(const glm::dvec2& tangent, int column, i
   return false;
 }
 
-/// Away from edges the depth found at the pixels around decides.
+/// Away from edges the depth found at the pixels around says what is lit; all else is looked at closely.
 bool ProjectorLight::shadowed(const glm::dvec2& tangent, const glm::dvec2& place, double inverse_m,
                               std::uint32_t face) const {
   const LookGrid& grid = raster_.grid;
@@ -118,12 +126,13 @@ bool ProjectorLight::shadowed(const glm::dvec2& tangent, const glm::dvec2& place
   if (sole_[block] == face) return false;
   const auto width = static_cast<std::size_t>(grid.width_px);
   const float* own = &nearest_inverse_m_[static_cast<std::size_t>(row) * width + static_cast<std::size_t>(column)];
-  if (*own < 0.0f) return shadowed_near_edge(tangent, column, row, inverse_m, face);
+  if (*own < 0.0f) return shadowed_by_one(tangent, column, row, inverse_m, face);
   const auto aside_x = static_cast<float>(place.x - column - 0.5), aside_y = static_cast<float>(place.y - row - 0.5);
   const float slope_x = 0.5f * (std::abs(own[1]) - std::abs(own[-1]));
   const float slope_y = 0.5f * (std::abs(own[width]) - std::abs(*(own - width)));
   const double nearest_inverse_m = *own + aside_x * slope_x + aside_y * slope_y;
-  return nearest_inverse_m > inverse_m * (1.0 + smooth_share);
+  const bool lit = nearest_inverse_m <= inverse_m * (1.0 + 2.0 * smooth_share);
+  return !lit && shadowed_by_one(tangent, column, row, inverse_m, face);
 }
 
 std::optional<glm::dvec2> ProjectorLight::pixel(const glm::dvec3& spot, double scale, std::uint32_t face) const {

@@ -26,7 +26,8 @@ class ProjectorLight {
 
  private:
   bool shadowed(const glm::dvec2& tangent, const glm::dvec2& place, double inverse_m, std::uint32_t face) const;
-  bool shadowed_near_edge(const glm::dvec2& tangent, int column, int row, double inverse_m, std::uint32_t face) const;
+  bool shadowed_by_one(const glm::dvec2& tangent, int column, int row, double inverse_m, std::uint32_t face) const;
+  bool goes_on(std::uint32_t a, std::uint32_t b, const glm::dvec2& one, const glm::dvec2& other) const;
   void mark_edges();
   void mark_blocks();
 

@@ -2,9 +2,9 @@
 #include <memory>
 
 #include "editor/cli/command_list.h"
-#include "editor/pipeline/compile_show.h"
 #include "editor/cli/output.h"
 #include "editor/cli/progress.h"
+#include "editor/pipeline/compile_show.h"
 #include "editor/pipeline/source.h"
 
 namespace focalstage {

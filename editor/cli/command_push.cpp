@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <stop_token>
 
 #include "editor/cli/command_list.h"
 #include "editor/cli/interrupt.h"
@@ -16,20 +17,23 @@ struct Options {
   bool activate = false;
 };
 
+/// Lets go of the rig before it returns, also after a stop: the next push need not wait for the lease to end.
+Status push(const Options& options, const std::stop_token& stop) {
+  auto rig = connect_to_rig(options.rig);
+  if (!rig) return rig.fault();
+  Progress bar("Pushing to " + options.rig, Progress::Style::automatic);
+  const auto show_share = [&](double share) { bar.update(share, 1.0, ""); };
+  return rig->push(options.show, options.activate, show_share, stop);
+}
+
 ExitStatus run(const Options& options) {
   Interrupt interrupt;
-  auto rig = connect_to_rig(options.rig);
-  if (!rig) return report(rig.fault());
-  Status pushed;
-  {
-    Progress bar("Pushing to " + options.rig, Progress::Style::automatic);
-    pushed = rig->push(
-        options.show, options.activate, [&](double share) { bar.update(share, 1.0, ""); }, interrupt.token());
-  }
+  const Status pushed = push(options, interrupt.token());
   if (!pushed) {
     Fault fault = pushed.fault();
     // A rig speaks of its own copy; what the user knows is the show.
-    if (fault.where.find(options.show) == std::string::npos) fault.where = options.show + ": " + fault.where;
+    const bool of_the_rig = fault.where.find(options.show) == std::string::npos && fault.code != "rig.unreachable";
+    if (of_the_rig) fault.where = options.show + ": " + fault.where;
     const ExitStatus status = report(fault);
     interrupt.end_if_asked();
     return status;

@@ -7,7 +7,7 @@
 #include "editor/cli/command_list.h"
 #include "editor/cli/interrupt.h"
 #include "editor/cli/output.h"
-#include "editor/cli/seen_show.h"
+#include "editor/pipeline/seen_show.h"
 #include "io/image/png.h"
 
 namespace focalstage {
@@ -39,6 +39,9 @@ Status read_size(const std::string& text, RetinaView& view) {
 }
 
 Result<RetinaView> view_of(const Options& options) {
+  for (const double number : {options.focus_m, options.pupil_mm, options.fov_deg}) {  // NaN is in every CLI::Range
+    if (std::isnan(number)) return Fault{"retina.number", "--focus-m, --pupil-mm, --fov-deg", "nan is no number", ""};
+  }
   RetinaView view;
   view.eye = options.eye == "left" ? Side::left : Side::right;
   view.focus_d = 1.0 / options.focus_m;

@@ -39,7 +39,7 @@ struct Preview::State {
   mutable std::mutex mutex;
   std::condition_variable arrived;
   std::optional<PreviewWish> newest;
-  bool pending = false;             ///< the worker has not looked at it yet
+  bool pending = false;  ///< the worker has not looked at it yet
   bool working = false;
   bool ending = false;
   std::stop_source whole;  ///< stops the full-size compile under way

@@ -4,6 +4,7 @@
 
 #include "editor/session/command_list.h"
 #include "editor/session/edits.h"
+#include "io/assets/image_plane.h"
 
 namespace focalstage {
 namespace {
@@ -113,8 +114,11 @@ Status quit(Session& session, const Value&) {
   return {};
 }
 
-/// A new object before the viewer, with the mesh of `reference`; or that mesh for a thing there is.
-void add_imported(Session::State& state, const std::string& reference, const Thing& replaced) {
+/// How wide an imported picture stands in the room at first.
+constexpr double picture_width_m = 0.2;
+
+/// A new object where the room's camera looks, with the mesh of `reference`; or that mesh for a thing there is.
+void add_imported(Session::State& state, const std::string& reference, const Thing& replaced, double scale) {
   Value mesh;
   mesh.set("file", reference);
   if (!replaced.name.empty()) {
@@ -125,6 +129,7 @@ void add_imported(Session::State& state, const std::string& reference, const Thi
   item.set("mesh", mesh);
   item.set("position_m", value_of(state.view.camera.target_m));
   item.set("rotation_xyzw", value_of(glm::dquat(1.0, 0.0, 0.0, 0.0)));
+  item.set("scale", scale);
   const std::string name = free_name(state.project(), "objects", fs::path(reference).stem().string());
   if (state.apply("Import " + name, {add_edit("objects", name, item)})) state.selection.things = {{"objects", name}};
 }
@@ -154,7 +159,7 @@ Status import(Session& session, const Value& args) {
                          state.say(LogLine::Kind::fault, "Nothing was imported. " + describe(brought->fault()));
                          return;
                        }
-                       add_imported(state, **brought, replaced);
+                       add_imported(state, **brought, replaced, is_picture(file) ? picture_width_m : 1.0);
                      };
                    });
   return {};

@@ -18,7 +18,7 @@ Status stand(Session& session, const Value&) {
 }
 
 Status home(Session& session, const Value&) {
-  session.view().camera = RoomCamera{};
+  SessionAccess::of(session).fit_views();
   session.view().look_through = LookThrough::nothing;
   return {};
 }
@@ -117,8 +117,8 @@ Status scrub(Session& session, const Value& args) {
 void add_view_commands(CommandList& list) {
   const auto add = [&](Command command) { list.push_back(command); };
   add({"app.palette", "Find a command", "Ctrl+P", "Every command, by its name", "search", false, always, palette});
-  add({"view.home", "Room from above", "Shift+Home", "The room as it was at the start", "home", true, needs_project,
-       home});
+  add({"view.home", "Everything in view", "Shift+Home", "Everything in view, as at the start", "home", true,
+       needs_project, home});
   add({"view.front", "Room from the viewer", "1", "Along the viewer's gaze", "", true, needs_project, stand<0, 0>});
   add({"view.right", "Room from the right", "3", "From the viewer's right", "", true, needs_project, stand<90, 0>});
   add({"view.top", "Room from the top", "7", "Straight down", "", true, needs_project, stand<0, 90>});

@@ -1,16 +1,25 @@
 #include "editor/session/session.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include <glm/trigonometric.hpp>
 
 #include "core/stage/stage.h"
 #include "editor/session/edits.h"
 #include "editor/session/session_state.h"
+#include "editor/tools/pick.h"
+#include "editor/tools/room_camera.h"
 
 namespace focalstage {
 namespace {
 
 constexpr std::size_t longest_log = 1000;
+/// A view's size where it is not known yet.
+constexpr glm::dvec2 usual_pane_px(640.0, 480.0);
+/// Of the eye's view: a lens of 16 mm at 15 mm shows 56 degrees.
+constexpr double narrowest_deg = 20.0, widest_deg = 60.0;
 
 LogLine::Kind kind_of(const Status& status) { return status ? LogLine::Kind::info : LogLine::Kind::fault; }
 
@@ -36,6 +45,7 @@ Session::State::State(std::function<void()> wake_up, UserFolders user_folders)
       recent_rigs(focalstage::recent_rigs(folders)),
       sample_cards(make_sample_cards()),
       preview(wake_up),
+      reader(wake_up),
       rig(wake_up, folders.state),
       jobs(wake_up) {}
 
@@ -136,14 +146,36 @@ void Session::State::take(Document opened) {
   view.filled = fresh.filled;
   view.sweep_time_s.reset();
   view.image = 0;
-  view.camera = fresh.camera;
   staged_frame = -1;
   stage = nullptr;
   preview.clear();
   recent = recent_projects(folders);
   restage();
+  fit_views();
   wish_preview();
   for (const Finding& note : document->notes()) say(LogLine::Kind::info, note.where + ": " + note.message);
+}
+
+/// The room's camera and the eye's field such that everything is seen at first.
+void Session::State::fit_views() {
+  view.camera = fitted(RoomCamera{}, usual_pane_px, stage_bounds(*stage, {}, true));
+  double slope = 0.0;
+  const Rigid viewer_from_world = stage->world_from_viewer.inverse();
+  const auto include = [&](const std::vector<Drawable>& drawables) {
+    const Bounds bounds = world_bounds(drawables);
+    for (int corner = 0; corner < 8 && !bounds.empty(); ++corner) {
+      const glm::dvec3 at((corner & 1) != 0 ? bounds.max_m.x : bounds.min_m.x,
+                          (corner & 2) != 0 ? bounds.max_m.y : bounds.min_m.y,
+                          (corner & 4) != 0 ? bounds.max_m.z : bounds.min_m.z);
+      const glm::dvec3 seen = viewer_from_world.point(at);
+      if (seen.z < -0.05) {
+        slope =
+            std::max({slope, std::abs(seen.x / seen.z), usual_pane_px.x / usual_pane_px.y * std::abs(seen.y / seen.z)});
+      }
+    }
+  };
+  for (const StagedObject& object : stage->objects) include(object.drawables);
+  view.fov_deg = std::clamp(glm::degrees(2.0 * std::atan(1.1 * slope)), narrowest_deg, widest_deg);
 }
 
 void Session::State::close_document() {
@@ -252,6 +284,8 @@ void Session::focus_at(glm::dvec2 at) {
   state_->wish_preview();
 }
 
+void Session::read_pixel(Side side, glm::ivec2 pixel) { state_->reader.ask(slices(), side, pixel); }
+std::shared_ptr<const PixelReading> Session::pixel_reading() const { return state_->reader.answer(); }
 bool Session::compiling() const { return state_->preview.busy(); }
 std::optional<Fault> Session::compile_fault() const { return state_->preview.fault(); }
 const RigLink& Session::rig() const { return state_->rig; }

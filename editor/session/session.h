@@ -11,6 +11,7 @@
 #include "core/scene/history.h"
 #include "core/scene/value.h"
 #include "editor/document/document.h"
+#include "editor/preview/pixel_reader.h"
 #include "editor/preview/preview.h"
 #include "editor/rig/rig_link.h"
 #include "editor/session/command.h"
@@ -68,6 +69,9 @@ class Session {
   void want_eye_size(int width_px, int height_px);
   /// "Focus here": at a place of the eye's picture, 0..1 from its top left corner. `view().focus_d` follows.
   void focus_at(glm::dvec2 at);
+  /// A pixel of the images in `slices()` explained; the answer comes with a later update, null until then.
+  void read_pixel(Side side, glm::ivec2 pixel);
+  std::shared_ptr<const PixelReading> pixel_reading() const;
   bool compiling() const;
   /// Why the newest revision could not be compiled, if it could not.
   std::optional<Fault> compile_fault() const;

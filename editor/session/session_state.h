@@ -9,6 +9,7 @@
 
 #include "editor/document/document.h"
 #include "editor/document/recent.h"
+#include "editor/preview/pixel_reader.h"
 #include "editor/preview/preview.h"
 #include "editor/rig/rig_link.h"
 #include "editor/session/jobs.h"
@@ -72,6 +73,7 @@ struct Session::State {
   double frame_since_s = 0.0;  ///< of the timeline's play
 
   Preview preview;
+  PixelReader reader;
   RigLink rig;
   Jobs jobs;  ///< last: its threads end first
 
@@ -91,6 +93,7 @@ struct Session::State {
   /// Drops what is selected but is no more.
   void tidy();
   void restage();
+  void fit_views();
   void wish_preview();
   /// The picture of the next sample that has none yet.
   void draw_next_sample();

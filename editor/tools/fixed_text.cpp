@@ -20,7 +20,8 @@ std::string fixed_text(double number, int decimals) {
 
 std::string signed_text(double number, int decimals) {
   const std::string text = fixed_text(number, decimals);
-  return text.starts_with('-') ? text : "+" + text;
+  const bool zero = text.find_first_not_of("0.") == std::string::npos;
+  return zero || text.starts_with('-') ? text : "+" + text;
 }
 
 }  // namespace focalstage

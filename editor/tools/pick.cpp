@@ -51,8 +51,8 @@ bool inside(const RoomView& view, const std::vector<Drawable>& drawables, const 
 
 }  // namespace
 
-void Picker::try_drawables(const StagedName& thing, const std::vector<Drawable>& drawables, const Ray& ray,
-                           double from_m, std::optional<PickHit>& best) {
+void Picker::nearer(const StagedName& thing, const std::vector<Drawable>& drawables, const Ray& ray, double from_m,
+                    std::optional<PickHit>& best) {
   for (const Drawable& drawable : drawables) {
     const auto tree = trees_.try_emplace(drawable.mesh.get(), drawable.mesh).first;
     const glm::dmat4 mesh_from_world = glm::affineInverse(drawable.world_from_mesh);
@@ -66,7 +66,7 @@ void Picker::try_drawables(const StagedName& thing, const std::vector<Drawable>&
 std::optional<PickHit> Picker::first(const Stage& stage, const Ray& ray, const MayPick& may, double from_m) {
   std::optional<PickHit> best;
   each_thing(stage, [&](const StagedName& thing, const std::vector<Drawable>& drawables) {
-    if (!may || may(thing)) try_drawables(thing, drawables, ray, from_m, best);
+    if (!may || may(thing)) nearer(thing, drawables, ray, from_m, best);
   });
   return best;
 }
@@ -74,7 +74,7 @@ std::optional<PickHit> Picker::first(const Stage& stage, const Ray& ray, const M
 std::optional<PickHit> Picker::first_surface(const Stage& stage, const Ray& ray) {
   std::optional<PickHit> best;
   for (const StagedSurface& surface : stage.surfaces) {
-    try_drawables({"surfaces", surface.name}, surface.drawables, ray, 0.0, best);
+    nearer({"surfaces", surface.name}, surface.drawables, ray, 0.0, best);
   }
   return best;
 }

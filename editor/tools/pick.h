@@ -44,13 +44,14 @@ class Picker {
   /// Forgets the meshes that the stage no longer has.
   void keep_only(const Stage& stage);
 
+  /// Makes `best` the thing's own hit if that is nearer.
+  void nearer(const StagedName& thing, const std::vector<Drawable>& drawables, const Ray& ray, double from_m,
+              std::optional<PickHit>& best);
+
   std::size_t meshes() const { return trees_.size(); }
 
  private:
-  void try_drawables(const StagedName& thing, const std::vector<Drawable>& drawables, const Ray& ray, double from_m,
-                     std::optional<PickHit>& best);
-
-  std::map<const Mesh*, MeshTree> trees_;
+  std::map<const Mesh*, MeshTree> trees_;  ///< each holds its mesh, so that no address is used twice
 };
 
 /// Around everything the drawables hold, in the world.

@@ -63,6 +63,8 @@ class RigConnection {
     for (int attempt = 0;; ++attempt) {
       const Result<std::string> mine = token();
       if (!mine) return mine.fault();
+      // Whoever was stopped while it took the rig has a lease to give back, and nothing more to ask.
+      if (stop.stop_requested()) return Fault{"rig.cancelled", address_, "was stopped", "ask again"};
       request.set_token(*mine);
       Result<Reply> reply = call(method, request, at_most, stop);
       if (reply || reply.fault().code != "rig.lease" || attempt > 0) return reply;

@@ -1,8 +1,10 @@
 #!/usr/bin/python3
 """Pushing under bad luck: damaged shows, killed clients, a killed rig, a second rig on the same port."""
 
-import pathlib
+import hashlib
+import os
 import random
+import shutil
 import signal
 import subprocess
 import time
@@ -13,9 +15,9 @@ from harness import (DONE, ENVIRONMENT, FOCALSTAGE, INVALID, RUNTIME, expect, fo
 KILLS = 100
 
 
-def big_show(at):
-    """A show of several chunks that a simulated rig takes."""
-    project = small_project(frames=24)
+def big_show(frames=24):
+    """A show of several chunks (about one for 12 frames) that a simulated rig takes."""
+    project = small_project(frames=frames, slices={"powers_d": [-1, -0.5, 0, 0.5]})
     project["projectors"][0].update(width_px=1024, height_px=768, fx_px=1280, fy_px=1280, cx_px=512, cy_px=384)
     project["objects"][0].update(mesh={"primitive": "plane", "size_m": [0.3, 0.2]},
                                  appearance={"checker": {"squares": [301, 211], "a": [1, 1, 1], "b": [0.1, 0.1, 0.1]}})
@@ -23,7 +25,7 @@ def big_show(at):
 
 
 def compiled(at, address, name="big", project=None):
-    write_project(at / name, project or big_show(at))
+    write_project(at / name, project or big_show())
     succeed("adopt-rig", at / name, "--to", address)
     ran = focalstage("compile", at / name, "-o", at / f"{name}.h5")
     assert ran.status == DONE, ran
@@ -42,13 +44,14 @@ def test_damaged_shows_are_refused():
         for k in range(12):
             damaged = bytearray(data)
             if k % 2:
-                damaged = damaged[: dice.randrange(1, len(data))]
+                damaged, named = damaged[: dice.randrange(512, len(data))], "bytes, its seal says"
             else:
-                damaged[dice.randrange(len(data))] ^= 1 << dice.randrange(8)
+                damaged[dice.randrange(512, len(data) - 32)] ^= 1 << dice.randrange(8)
+                named = f"chunk 0 of 1 (bytes 512 to {len(data) - 32})"
             bad.write_bytes(damaged)
             ran = focalstage("push", bad, "--to", address, "--activate")
             assert ran.status in (INVALID, ENVIRONMENT), ran
-            expect(ran, ran.status, "bad.h5")
+            expect(ran, ran.status, "bad.h5", named)
         after = succeed("rig", "state", "--to", address, "--json").json()
         assert after["state"] == "playing" and after["show_sha256"] == before["show_sha256"], after
 
@@ -126,19 +129,94 @@ def test_second_rig_on_the_same_port():
 
 
 def test_interrupted_push():
+    """Whenever Ctrl-C comes, the rig is free for the next push at once."""
     with folder() as at, rig(at) as address:
         show = compiled(at, address)
-        process = subprocess.Popen([FOCALSTAGE, "push", str(show), "--to", address], stdout=subprocess.PIPE,
+        interrupted = 0
+        for k in range(25):
+            process = subprocess.Popen([FOCALSTAGE, "push", str(show), "--to", address], stdout=subprocess.PIPE,
+                                       stderr=subprocess.PIPE, text=True)
+            time.sleep(0.004 * k)
+            process.send_signal(signal.SIGINT)
+            process.communicate(timeout=10)
+            assert process.returncode in (-signal.SIGINT, DONE), process.returncode
+            interrupted += process.returncode != DONE
+            state = succeed("rig", "state", "--to", address, "--json").json()
+            assert state["holder"] == "", f"after {4 * k} ms: {state}"
+            shutil.rmtree(at / "rig" / "partial", ignore_errors=True)
+            (at / "rig" / "partial").mkdir()
+        succeed("push", show, "--to", address, "--activate")
+    return f"{interrupted} of 25 interrupted"
+
+
+def test_full_disk_in_a_push():
+    """A full disk ends a push with what is the matter; the rig plays on, and takes the show once there is room."""
+    with folder() as at:
+        disk = at / "rig"
+        disk.mkdir()
+        mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=24m", "tmpfs", str(disk)], capture_output=True)
+        if mounted.returncode != 0:
+            return "not run: needs root to mount a small tmpfs"
+        try:
+            with rig(at) as address:
+                small = compiled(at, address, "small", small_project(frames=2))
+                show = compiled(at, address, project=big_show(frames=40))
+                succeed("push", small, "--to", address, "--activate")
+                playing = succeed("rig", "play", "--to", address, "--json").json()["show_sha256"]
+                fill = disk / "fill"
+                fill_up(disk, fill, 3 << 19)  # a chunk and a half: refused before a byte is sent
+                expect(focalstage("push", show, "--to", address), ENVIRONMENT, "the rig's disk is full", str(show))
+                fill.unlink()
+                err = push_while_disk_fills(show, address, disk, fill)
+                assert "the rig's disk is full" in err, err
+                state = succeed("rig", "state", "--to", address, "--json").json()
+                assert state["state"] == "playing" and state["show_sha256"] == playing, state
+                assert len(list((disk / "shows").iterdir())) == 1
+                fill.unlink()
+                succeed("push", show, "--to", address, "--activate")
+                state = succeed("rig", "state", "--to", address, "--json").json()
+                assert state["show_sha256"] != playing, state
+                return f"a show of {show.stat().st_size / (1 << 20):.1f} chunks"
+        finally:
+            subprocess.run(["umount", "-l", str(disk)], check=True)
+
+
+def push_while_disk_fills(show, address, disk, fill):
+    """Stops a push after some chunks, takes all room that is left, lets it go on: what it says then."""
+    for _ in range(10):
+        process = subprocess.Popen([FOCALSTAGE, "push", str(show), "--to", address], stdout=subprocess.DEVNULL,
                                    stderr=subprocess.PIPE, text=True)
-        time.sleep(0.03)
-        process.send_signal(signal.SIGINT)
-        process.communicate(timeout=10)
-        assert process.returncode in (-signal.SIGINT, DONE), process.returncode
-        ran = push_when_free(show, address)
-        assert ran.status == DONE, ran
-        assert pathlib.Path(show).exists()
+        while process.poll() is None and not a_chunk_came(disk):
+            pass
+        process.send_signal(signal.SIGSTOP)
+        fill_up(disk, fill, 0)
+        process.send_signal(signal.SIGCONT)
+        _, err = process.communicate(timeout=60)
+        if process.returncode == ENVIRONMENT:
+            return err
+        fill.unlink()  # it was too quick: once more from the start
+        for done in (disk / "shows").glob(f"{hashlib.sha256(show.read_bytes()).hexdigest()}*"):
+            done.unlink()
+    raise AssertionError("no push was still under way when the disk filled")
+
+
+def a_chunk_came(disk):
+    try:
+        return any(part.stat().st_size > 0 for part in (disk / "partial").glob("*.part"))
+    except FileNotFoundError:  # it has just become a show
+        return False
+
+
+def fill_up(disk, path, leave):
+    """Takes all room of a small disk but `leave` bytes."""
+    free = os.statvfs(disk).f_bavail * os.statvfs(disk).f_frsize
+    with open(path, "wb") as f:
+        try:
+            os.posix_fallocate(f.fileno(), 0, max(free - leave, 4096))
+        except OSError:
+            pass
 
 
 if __name__ == "__main__":
     main([test_damaged_shows_are_refused, test_killed_pushes, test_killed_rigs, test_second_rig_on_the_same_port,
-          test_interrupted_push])
+          test_interrupted_push, test_full_disk_in_a_push])

@@ -46,7 +46,7 @@ void set_hints(const WindowOptions& options) {
 Fault no_display() {
   const char* reason = nullptr;
   glfwGetError(&reason);
-  return {"display.none", "focalstage-editor", reason != nullptr ? reason : "no window can be opened here",
+  return {"display.none", "the window", reason != nullptr ? reason : "no window can be opened here",
           "start it where there is a display with OpenGL 3.3; every other command of focalstage works without"};
 }
 

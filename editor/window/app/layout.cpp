@@ -19,6 +19,7 @@ constexpr double most_outline = 480.0;
 constexpr double least_properties = 200.0;
 constexpr double most_properties = 560.0;
 constexpr double least_bottom = 70.0;
+constexpr float most_bottom_share = 0.4f;
 
 struct Measure {
   double scale;
@@ -32,7 +33,8 @@ struct Box {
 
 void cut_bottom(Layout& layout, Box& box, const Splits& splits, bool with_timeline, const Measure& px) {
   const float room = box.bottom - box.top - px(least_centre_height);
-  const float wanted = std::max(px(splits.bottom), px(least_bottom));
+  const float most = most_bottom_share * (box.bottom - box.top);
+  const float wanted = std::max(std::min(px(splits.bottom), most), px(least_bottom));
   if (room >= px(least_bottom) + px(gap)) {
     const float top = std::round(box.bottom - std::min(wanted, room - px(gap)));
     layout.bottom = Box{box.left, top, box.right, box.bottom}.rect();

@@ -5,6 +5,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "editor/window/base/fonts.h"
 #include "editor/window/base/icons.h"
@@ -62,8 +63,8 @@ bool combo_face(std::string_view name, std::string_view shown, const FieldStyle&
   const std::uint32_t colour = style.tip.unavailable.empty() ? theme::text : theme::dim;
   list.AddText({min.x + ImGui::GetStyle().FramePadding.x, text_y}, colour, shown.data(), shown.data() + shown.size());
   list.PopClipRect();
-  const std::string_view caret = icon("down");
-  list.AddText(small_font(), small_font()->FontSize * 0.75f, {caret_x, text_y + px(3)}, theme::dim, caret.data(),
+  const std::string_view caret = icon("unfolded");
+  list.AddText(small_font(), small_font()->FontSize, {caret_x, text_y + px(1)}, theme::dim, caret.data(),
                caret.data() + caret.size());
   return pressed;
 }
@@ -122,15 +123,30 @@ bool check(std::string_view name, bool& on, const FieldStyle& style) {
 
 bool slider(std::string_view name, double& value, double least, double most, int digits, std::string_view unit,
             const FieldStyle& style) {
-  const std::string number = number_text(value, digits, unit);
-  std::string format;  // ImGui's own format language knows no units: the text is passed as it is, escaped
-  for (const char c : number) format += c == '%' ? std::string("%%") : std::string(1, c);
-  ImGui::SetNextItemWidth(width_of(style));
+  const ImVec2 min = ImGui::GetCursorScreenPos();
+  const ImVec2 size(width_of(style), ImGui::GetFrameHeight());
+  const ImVec2 max(min.x + size.x, min.y + size.y);
   begin_enabled(style);
-  const bool moved = ImGui::SliderScalar(hidden_label(name).c_str(), ImGuiDataType_Double, &value, &least, &most,
-                                         format.c_str(), ImGuiSliderFlags_NoInput | ImGuiSliderFlags_NoRoundToFormat);
+  ImGui::InvisibleButton(hidden_label(name).c_str(), size);
+  const bool held = ImGui::IsItemActive();
+  const bool lit = held || ImGui::IsItemHovered();
   end_enabled(name, style);
-  return moved;
+  const double before = value;
+  if (held && size.x > 2.0f && most > least) {
+    const double share = std::clamp(static_cast<double>((ImGui::GetIO().MousePos.x - min.x) / size.x), 0.0, 1.0);
+    const double grain = std::pow(10.0, digits);
+    value = std::clamp(std::round((least + share * (most - least)) * grain) / grain, least, most);
+  }
+  const double share = most > least ? std::clamp((value - least) / (most - least), 0.0, 1.0) : 0.0;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(min, max, lit ? theme::field_hovered : theme::field, px(4));
+  const float filled_x = min.x + std::round(static_cast<float>(share) * size.x);
+  list.PushClipRect(min, {filled_x, max.y}, true);
+  list.AddRectFilled(min, max, held ? theme::accent_fill : theme::selection, px(4));
+  list.PopClipRect();
+  const std::string number = number_text(value, digits, unit);
+  ImGui::RenderTextClipped(min, max, number.c_str(), nullptr, nullptr, {0.5f, 0.5f});
+  return value != before;
 }
 
 }  // namespace focalstage

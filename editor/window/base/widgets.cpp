@@ -95,10 +95,9 @@ bool section(std::string_view title, bool open_at_first) {
   const float y = min.y + ImGui::GetStyle().FramePadding.y;
   list.AddText(strong_font(), strong_font()->FontSize, {min.x, y}, theme::text, title.data(),
                title.data() + title.size());
-  const std::string_view caret = icon(open ? "down" : "collapse");
-  const float caret_size = std::round(small_font()->FontSize * 0.75f);
+  const std::string_view caret = icon(open ? "unfolded" : "folded");
   if (!open || ImGui::IsItemHovered()) {
-    list.AddText(small_font(), caret_size, {min.x + size.x - px(16), y + px(3)}, theme::dim, caret.data(),
+    list.AddText(small_font(), small_font()->FontSize, {min.x + size.x - px(18), y + px(1)}, theme::dim, caret.data(),
                  caret.data() + caret.size());
   }
   return open;

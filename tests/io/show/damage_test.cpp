@@ -5,12 +5,13 @@
 #include <unistd.h>
 
 #include <cmath>
-
 #include <filesystem>
 #include <random>
 #include <string>
+#include <type_traits>
 #include <vector>
 
+#include "io/files/digest.h"
 #include "io/show/disk.h"
 #include "io/show/hdf5.h"
 #include "io/show/reader.h"
@@ -81,6 +82,77 @@ TEST_CASE("a show with any bit flipped, or with more behind it, is refused") {
   CHECK(refusal(path) == "show.damaged");
 }
 
+/// What `path` is refused for.
+std::string message(const fs::path& path) {
+  const Result<ShowReader> show = ShowReader::open(path);
+  return show.ok() ? "" : show.fault().message;
+}
+
+TEST_CASE("damage is named by the chunk it lies in") {
+  const sample::Folder folder;
+  const fs::path path = folder / "long.h5";
+  ShowHeader header = sample::header(1, 20, 10, 1);
+  // An asset of 2.5 MiB that nothing compresses: the show has three chunks of a MiB, the last not full.
+  std::mt19937_64 random(1);
+  AssetFile asset;
+  asset.path = "noise";
+  asset.bytes.resize(5 << 19);
+  for (auto& byte : asset.bytes) byte = static_cast<std::remove_reference_t<decltype(byte)>>(random());
+  asset.sha256 = hex(sha256_of(asset.bytes));
+  header.assets.push_back(asset);
+  write_show(path, header);
+  const std::uint64_t length = fs::file_size(path);
+  REQUIRE(length > (5 << 19));
+  REQUIRE(length < (3 << 20));
+  REQUIRE(message(path) == "");
+  const DiskFile file = open_file(path, O_RDWR);
+  const auto with_a_bit_flipped = [&](std::uint64_t at) {
+    std::byte byte[1];
+    REQUIRE(file.read_at(at, byte));
+    byte[0] ^= std::byte{4};
+    REQUIRE(file.write_at(at, byte));
+    const std::string told = message(path);
+    byte[0] ^= std::byte{4};
+    REQUIRE(file.write_at(at, byte));
+    return told;
+  };
+  constexpr std::uint64_t mib = 1 << 20;
+  const std::string end = std::to_string(length - 3 * 32);  // the table has 32 bytes for each chunk
+  CHECK(with_a_bit_flipped(511) == "its seal, the first 512 bytes, was changed");
+  CHECK(with_a_bit_flipped(512) == "chunk 0 of 3 (bytes 512 to 1048576) was changed");
+  CHECK(with_a_bit_flipped(mib - 1) == "chunk 0 of 3 (bytes 512 to 1048576) was changed");
+  CHECK(with_a_bit_flipped(mib) == "chunk 1 of 3 (bytes 1048576 to 2097152) was changed");
+  CHECK(with_a_bit_flipped(length - 3 * 32 - 1) == "chunk 2 of 3 (bytes 2097152 to " + end + ") was changed");
+  CHECK(with_a_bit_flipped(length - 3 * 32) ==
+        "its last 96 bytes, the hashes of its chunks, are not those that its seal names");
+  CHECK(with_a_bit_flipped(length - 1).find("its last 96 bytes") == 0);
+  REQUIRE(::truncate(path.c_str(), 1500000) == 0);
+  CHECK(message(path) == "it has 1500000 bytes, its seal says " + std::to_string(length));
+}
+
+TEST_CASE("a show of any length around a chunk's end can be sealed and checked") {
+  const sample::Folder folder;
+  const fs::path path = folder / "bytes";
+  for (const std::uint64_t chunks : {1, 2, 3}) {
+    for (const int off : {-33, -32, -31, -1, 0, 1, 31, 32, 33}) {
+      const std::uint64_t length = (chunks << 20) + static_cast<std::uint64_t>(off);
+      CAPTURE(length);
+      fs::remove(path);
+      const DiskFile file = open_file(path, O_RDWR | O_CREAT);
+      REQUIRE(::ftruncate(file.descriptor(), static_cast<off_t>(length)) == 0);
+      REQUIRE(write_seal(file));
+      CHECK(file.size() == length + 32 * (off > 0 ? chunks + 1 : chunks));
+      CHECK(check_seal(path).ok());
+      const std::byte more[1] = {};
+      REQUIRE(file.write_at(length - 1, std::span(more)));
+      CHECK(check_seal(path).ok());  // it was zero before
+      const std::byte other[1] = {std::byte{1}};
+      REQUIRE(file.write_at(length - 1, std::span(other)));
+      CHECK_FALSE(check_seal(path).ok());
+    }
+  }
+}
+
 TEST_CASE("what is no show is refused by what it is") {
   const sample::Folder folder;
   const fs::path path = folder / "other.h5";
@@ -99,7 +171,7 @@ TEST_CASE("what is no show is refused by what it is") {
   std::string bytes = sample::bytes_of(path);
   sample::put(path, bytes.substr(512));
   CHECK(refusal(path) == "show.not-a-show");
-  bytes[16] = '2';
+  bytes[16] = '3';
   sample::put(path, bytes);
   CHECK(refusal(path) == "show.version");
 }

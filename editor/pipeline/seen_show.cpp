@@ -1,4 +1,4 @@
-#include "editor/cli/seen_show.h"
+#include "editor/pipeline/seen_show.h"
 
 #include <algorithm>
 #include <iterator>
