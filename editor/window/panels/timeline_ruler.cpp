@@ -240,7 +240,7 @@ void TimelineRuler::draw_keys(const Session& session, const Mark& hovered) const
     const bool is_chosen = chosen && same_time(*chosen, key.time_s);
     const bool here = same_time(key.time_s, session.view().frame / rate_hz_);
     const bool lit = hovered.kind == Held::key && same_time(hovered.time_s, key.time_s);
-    draw_diamond({x_of(frame), y}, px(lit || is_chosen ? 6 : 5),
+    draw_diamond({x_of(frame), y}, px(lit || is_chosen ? 7 : 6),
                  is_chosen ? theme::accent
                  : lit     ? theme::colour(0xFFFFFF)
                  : here    ? theme::text
