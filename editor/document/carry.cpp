@@ -4,6 +4,7 @@
 
 #include "editor/document/document.h"
 #include "editor/document/recent.h"
+#include "io/assets/image_plane.h"
 #include "io/files/files.h"
 #include "io/project/project_file.h"
 
@@ -11,6 +12,8 @@ namespace focalstage {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::uint64_t largest_picture = 256u << 20;
 
 Status write_files(const std::vector<AssetFile>& files, const fs::path& folder) {
   for (const AssetFile& file : files) {
@@ -67,7 +70,21 @@ fs::path place_for(const fs::path& folder, const std::string& name, const std::v
 
 }  // namespace
 
+/// A picture becomes a plane that carries it.
+static Result<std::string> bring_in_picture(const fs::path& file, const fs::path& project_folder) {
+  const auto bytes = read_file(file, largest_picture);
+  if (!bytes) return bytes.fault();
+  auto plane = image_plane(*bytes, file);
+  if (!plane) return plane.fault();
+  const std::string name = file.stem().string() + ".glb";
+  std::vector<AssetFile> files{{name, {}, std::move(*plane)}};
+  files[0].path = place_for(project_folder, name, files).generic_string();
+  if (Status written = write_files(files, project_folder); !written) return written.fault();
+  return files[0].path;
+}
+
 Result<std::string> bring_in(const fs::path& file, const fs::path& project_folder) {
+  if (is_picture(file)) return bring_in_picture(file, project_folder);
   const std::string name = file.filename().string();
   Project only;
   only.objects.emplace_back();

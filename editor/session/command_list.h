@@ -12,8 +12,10 @@ using CommandList = std::vector<Command>;
 
 // The table by what commands act on, in the order of the palette; each file of commands_*.cpp is one of them.
 void add_file_commands(CommandList& list);
+void add_export_commands(CommandList& list);
 void add_edit_commands(CommandList& list);
 void add_things_commands(CommandList& list);
+void add_place_commands(CommandList& list);
 void add_time_commands(CommandList& list);
 void add_view_commands(CommandList& list);
 void add_eye_commands(CommandList& list);

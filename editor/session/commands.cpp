@@ -17,8 +17,10 @@ std::span<const Command> commands() {
   static const CommandList list = [] {
     CommandList made;
     add_file_commands(made);
+    add_export_commands(made);
     add_edit_commands(made);
     add_things_commands(made);
+    add_place_commands(made);
     add_time_commands(made);
     add_view_commands(made);
     add_eye_commands(made);

@@ -51,6 +51,11 @@ std::vector<Thing> removable(const Session::State& state) {
 
 Status remove(Session& session, const Value&) {
   auto& state = SessionAccess::of(session);
+  if (state.view.key_time_s) {
+    Value args;
+    args.set("time_s", *state.view.key_time_s);
+    return session.run("key.delete", args);
+  }
   const std::vector<Thing> things = removable(state);
   if (things.empty()) {
     return Fault{"session.locked", "", "nothing selected can be deleted", "unlock it first, or keep one projector"};
@@ -217,13 +222,20 @@ Status ungroup(Session& session, const Value&) {
   return group(session, args);
 }
 
-/// args: name, the new one; list and of, the thing (none: the selected one)
+/// args: name, the new one (none: it is typed in the outline); list and of, the thing (none: the selected one)
 Status rename(Session& session, const Value& args) {
+  const Thing* selected = session.selection().primary();
+  if (!args.find("name")) {
+    if (!selected || selected->name.empty()) {
+      return Fault{"session.nothing", "", "nothing selected has a name of its own", "select a thing of a list"};
+    }
+    session.view().renaming = *selected;
+    return {};
+  }
   const auto name = text_arg(args, "name");
   if (!name) return name.fault();
-  const Thing* primary = session.selection().primary();
-  const Thing thing{text_or(args, "list", primary ? primary->list : ""),
-                    text_or(args, "of", primary ? primary->name : "")};
+  const Thing thing{text_or(args, "list", selected ? selected->list : ""),
+                    text_or(args, "of", selected ? selected->name : "")};
   if (thing.name == *name) return {};
   Status done = session.edit("Rename " + thing.name + " to " + *name,
                              {{Edit::Kind::rename, thing.list, thing.name, "", Value(*name)}});
@@ -269,7 +281,7 @@ void add_edit_commands(CommandList& list) {
   add({"edit.duplicate", "Duplicate", "Ctrl+D", "A second one of each selected thing", "duplicate", true,
        needs_selection, duplicate});
   add({"edit.delete", "Delete", "Delete", "Remove what is selected", "delete", true, needs_selection, remove});
-  add({"edit.rename", "Rename", "F2", "Give the selected thing another name", "", false, needs_project, rename});
+  add({"edit.rename", "Rename", "F2", "Give the selected thing another name", "rename", true, needs_selection, rename});
   add({"edit.hide", "Hide or show", "H", "What is hidden is neither drawn nor compiled", "hidden", true, needs_things,
        hide});
   add({"edit.show-all", "Show all", "Alt+H", "Bring back everything hidden", "visible", true, needs_project, show_all});

@@ -4,6 +4,7 @@
 
 #include "editor/session/command_list.h"
 #include "editor/session/edits.h"
+#include "io/assets/image_plane.h"
 
 namespace focalstage {
 namespace {
@@ -113,34 +114,42 @@ Status quit(Session& session, const Value&) {
   return {};
 }
 
-/// A new object before the viewer, with the mesh of `reference`.
-void add_imported(Session::State& state, const std::string& reference, const std::string& replaced) {
+/// How wide an imported picture stands in the room at first.
+constexpr double picture_width_m = 0.2;
+
+/// A new object where the room's camera looks, with the mesh of `reference`; or that mesh for a thing there is.
+void add_imported(Session::State& state, const std::string& reference, const Thing& replaced, double scale) {
   Value mesh;
   mesh.set("file", reference);
-  if (!replaced.empty()) {
-    (void)state.apply("Replace mesh of " + replaced, {set_edit({"objects", replaced}, "mesh", mesh)});
+  if (!replaced.name.empty()) {
+    (void)state.apply("Replace mesh of " + replaced.name, {set_edit(replaced, "mesh", mesh)});
     return;
   }
   Value item;
   item.set("mesh", mesh);
   item.set("position_m", value_of(state.view.camera.target_m));
   item.set("rotation_xyzw", value_of(glm::dquat(1.0, 0.0, 0.0, 0.0)));
+  item.set("scale", scale);
   const std::string name = free_name(state.project(), "objects", fs::path(reference).stem().string());
   if (state.apply("Import " + name, {add_edit("objects", name, item)})) state.selection.things = {{"objects", name}};
 }
 
-/// args: path; replace: the object whose mesh it becomes
+Thing replaced_by(const Value& args) { return {text_or(args, "list", "objects"), text_or(args, "replace", "")}; }
+
+/// args: path (none: it is asked for); replace: the thing whose mesh it becomes, of the list `list` (none: objects)
 Status import(Session& session, const Value& args) {
   auto& state = SessionAccess::of(session);
   const auto path = text_arg(args, "path");
   if (!path) {
     state.file_wish = FileWish::import_mesh;
+    state.import_replaces = replaced_by(args);
     return {};
   }
+  const Thing asked_for = std::exchange(state.import_replaces, Thing{});
   const fs::path file(*path);
   if (file.extension() == ".focal" || fs::is_directory(file)) return open(session, args);
   if (!state.document) return Fault{"session.nothing-open", file.string(), "no project is open", "open one first"};
-  const std::string replaced = text_or(args, "replace", "");
+  const Thing replaced = args.find("replace") ? replaced_by(args) : asked_for;
   state.jobs.start("Import " + file.filename().string(),
                    [&state, file, replaced, folder = state.document->folder()](const Jobs::Progress&, std::stop_token) {
                      auto brought = std::make_shared<Result<std::string>>(bring_in(file, folder));
@@ -150,7 +159,7 @@ Status import(Session& session, const Value& args) {
                          state.say(LogLine::Kind::fault, "Nothing was imported. " + describe(brought->fault()));
                          return;
                        }
-                       add_imported(state, **brought, replaced);
+                       add_imported(state, **brought, replaced, is_picture(file) ? picture_width_m : 1.0);
                      };
                    });
   return {};

@@ -3,45 +3,12 @@
 
 #include "editor/session/command_list.h"
 #include "editor/session/edits.h"
+#include "editor/session/new_mesh.h"
 
 namespace focalstage {
 namespace {
 
 constexpr glm::dquat upright(1.0, 0.0, 0.0, 0.0);
-
-Value primitive(const char* kind) {
-  Value mesh;
-  mesh.set("primitive", kind);
-  return mesh;
-}
-
-Value plane(double width_m, double height_m) {
-  Value mesh = primitive("plane");
-  mesh.set("size_m", Value(Value::Array{width_m, height_m}));
-  return mesh;
-}
-
-/// A mesh as a newcomer would have it, about 10 cm across, or a wall for what is to be a surface.
-Result<Value> mesh_of(const std::string& kind, bool surface) {
-  const double size_m = surface ? 0.4 : 0.1;
-  if (kind == "plane") return surface ? plane(0.6, 0.4) : plane(0.12, 0.09);
-  Value mesh = primitive(kind.c_str());
-  if (kind == "box") {
-    mesh.set("size_m", Value(Value::Array{size_m, size_m, size_m}));
-  } else if (kind == "sphere") {
-    mesh.set("radius_m", size_m / 2);
-  } else if (kind == "corner") {
-    mesh.set("size_m", Value(Value::Array{size_m, size_m}));
-    mesh.set("angle_deg", 90.0);
-  } else if (kind == "step") {
-    mesh.set("size_m", Value(Value::Array{1.5 * size_m, size_m}));
-    mesh.set("depth_m", size_m / 4);
-  } else if (kind != "teapot" && kind != "rabbit") {
-    return Fault{"command.argument", "kind", "there is no primitive " + kind,
-                 "use plane, box, sphere, corner, step, teapot or rabbit"};
-  }
-  return mesh;
-}
 
 /// Before the viewer, at arm's length: where a new thing is seen at once.
 glm::dvec3 before_viewer(const Session& session, double distance_m) {
@@ -53,10 +20,10 @@ glm::dvec3 before_viewer(const Session& session, double distance_m) {
 Status add_object(Session& session, const Value& args) {
   const auto kind = text_arg(args, "kind");
   if (!kind) return kind.fault();
-  const auto mesh = mesh_of(*kind, false);
+  const auto mesh = new_mesh(*kind, false);
   if (!mesh) return mesh.fault();
   const std::string name = free_name(session.project(), "objects", text_or(args, "name", *kind));
-  const bool one_metre = *kind == "teapot" || *kind == "rabbit";
+  const bool one_metre = is_metre_high(*kind);
   Value item;
   item.set("mesh", *mesh);
   const Value* position = args.find("position_m");
@@ -75,7 +42,7 @@ Status add_object(Session& session, const Value& args) {
 /// args: kind; name
 Status add_surface(Session& session, const Value& args) {
   const std::string kind = text_or(args, "kind", "plane");
-  const auto mesh = mesh_of(kind, true);
+  const auto mesh = new_mesh(kind, true);
   if (!mesh) return mesh.fault();
   const std::string name =
       free_name(session.project(), "surfaces", text_or(args, "name", kind == "plane" ? "screen" : kind));

@@ -8,17 +8,10 @@
 namespace focalstage {
 namespace {
 
-const Placement* placement_of(const Project& project, const Thing& thing) {
-  if (thing.list == "viewer") return &project.viewer.placement;
-  const Object* object = thing.list == "objects" ? object_named(project, thing.name) : nullptr;
-  const Surface* surface = thing.list == "surfaces" ? surface_named(project, thing.name) : nullptr;
-  return object ? &object->placement : surface ? &surface->placement : nullptr;
-}
-
 std::string needs_keyable(const Session& session) {
   if (!session.has_document()) return needs_project(session);
   const Thing* thing = session.selection().primary();
-  return thing && placement_of(session.project(), *thing) ? "" : "select a surface, an object or the viewer first";
+  return thing && placement_of(session.project(), thing) ? "" : "select a surface, an object or the viewer first";
 }
 
 /// args: frame
@@ -50,10 +43,10 @@ Status play(Session& session, const Value&) {
 Status add_key(Session& session, const Value&) {
   const auto& state = SessionAccess::of(session);
   const Thing thing = *session.selection().primary();
-  std::vector<Keyframe> keys = placement_of(session.project(), thing)->keys;
+  std::vector<Keyframe> keys = placement_of(session.project(), &thing)->keys;
   const double time_s = state.frame_time_s();
   const Rigid pose = pose_of(session.project(), thing, time_s);
-  std::erase_if(keys, [&](const Keyframe& key) { return std::abs(key.time_s - time_s) < 1e-4; });
+  std::erase_if(keys, [&](const Keyframe& key) { return std::abs(key.time_s - time_s) < same_key_s; });
   const auto later = std::find_if(keys.begin(), keys.end(), [&](const Keyframe& key) { return key.time_s > time_s; });
   keys.insert(later, {time_s, pose, {}});
   return session.edit("Set a key of " + title_of(thing), {set_edit(thing, "keys", keys_value(keys))});
@@ -63,9 +56,9 @@ Status add_key(Session& session, const Value&) {
 Status delete_key(Session& session, const Value& args) {
   const auto& state = SessionAccess::of(session);
   const Thing thing = *session.selection().primary();
-  std::vector<Keyframe> keys = placement_of(session.project(), thing)->keys;
+  std::vector<Keyframe> keys = placement_of(session.project(), &thing)->keys;
   const double time_s = number_or(args, "time_s", state.frame_time_s());
-  if (std::erase_if(keys, [&](const Keyframe& key) { return std::abs(key.time_s - time_s) < 1e-4; }) == 0) {
+  if (std::erase_if(keys, [&](const Keyframe& key) { return std::abs(key.time_s - time_s) < same_key_s; }) == 0) {
     return Fault{"session.no-key", title_of(thing), "has no key at this moment", ""};
   }
   return session.edit("Delete a key of " + title_of(thing),
@@ -77,9 +70,9 @@ Status move_key(Session& session, const Value& args) {
   const auto from_s = number_arg(args, "from_s"), to_s = number_arg(args, "to_s");
   if (!from_s || !to_s) return from_s ? to_s.fault() : from_s.fault();
   const Thing thing = *session.selection().primary();
-  std::vector<Keyframe> keys = placement_of(session.project(), thing)->keys;
+  std::vector<Keyframe> keys = placement_of(session.project(), &thing)->keys;
   const auto at = std::find_if(keys.begin(), keys.end(),
-                               [&](const Keyframe& key) { return std::abs(key.time_s - *from_s) < 1e-4; });
+                               [&](const Keyframe& key) { return std::abs(key.time_s - *from_s) < same_key_s; });
   if (at == keys.end()) return Fault{"session.no-key", title_of(thing), "has no key at this moment", ""};
   at->time_s = std::max(0.0, *to_s);
   std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.time_s < b.time_s; });

@@ -18,7 +18,7 @@ Status stand(Session& session, const Value&) {
 }
 
 Status home(Session& session, const Value&) {
-  session.view().camera = RoomCamera{};
+  SessionAccess::of(session).fit_views();
   session.view().look_through = LookThrough::nothing;
   return {};
 }
@@ -66,6 +66,15 @@ Status four(Session& session, const Value&) {
   return {};
 }
 
+enum class Tab { findings, history, log };
+
+template <Tab Shown>
+Status bottom(Session& session, const Value&) {
+  static constexpr std::array<const char*, 3> names{"findings", "history", "log"};
+  session.view().bottom_tab = names[static_cast<std::size_t>(Shown)];
+  return {};
+}
+
 /// args: image, in the image plan
 Status image(Session& session, const Value& args) {
   const auto number = number_arg(args, "image");
@@ -108,8 +117,8 @@ Status scrub(Session& session, const Value& args) {
 void add_view_commands(CommandList& list) {
   const auto add = [&](Command command) { list.push_back(command); };
   add({"app.palette", "Find a command", "Ctrl+P", "Every command, by its name", "search", false, always, palette});
-  add({"view.home", "Room from above", "Shift+Home", "The room as it was at the start", "home", true, needs_project,
-       home});
+  add({"view.home", "Everything in view", "Shift+Home", "Everything in view, as at the start", "home", true,
+       needs_project, home});
   add({"view.front", "Room from the viewer", "1", "Along the viewer's gaze", "", true, needs_project, stand<0, 0>});
   add({"view.right", "Room from the right", "3", "From the viewer's right", "", true, needs_project, stand<90, 0>});
   add({"view.top", "Room from the top", "7", "Straight down", "", true, needs_project, stand<0, 90>});
@@ -141,6 +150,11 @@ void add_view_commands(CommandList& list) {
   add({"view.fill-time", "Fill with the sweep", "F4", "The sweep alone, or all four views", "time", true, needs_project,
        fill<PaneId::time>});
   add({"view.four", "All four views", "F5", "", "four", true, needs_project, four});
+  add({"view.findings", "Show the findings", "", "What is wrong with the project", "finding", true, needs_project,
+       bottom<Tab::findings>});
+  add({"view.history", "Show the history", "", "All steps, to go back to any of them", "history", true, needs_project,
+       bottom<Tab::history>});
+  add({"view.log", "Show the log", "", "What happened since the start", "log", true, needs_project, bottom<Tab::log>});
   add({"projector.image", "Show an image", "", "", "", false, needs_project, image});
   add({"projector.assignment", "Assignment in false colours", "A", "Which slice lights each pixel", "tint", true,
        needs_project, assignment});

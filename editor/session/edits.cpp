@@ -1,21 +1,13 @@
 #include "editor/session/edits.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/scene/project_value.h"
 #include "core/stage/stage.h"
 
 namespace focalstage {
 namespace {
-
-const Placement* placement_of(const Project& project, const Thing& thing) {
-  if (thing.list == "viewer") return &project.viewer.placement;
-  if (const Object* object = thing.list == "objects" ? object_named(project, thing.name) : nullptr) {
-    return &object->placement;
-  }
-  if (const Surface* surface = thing.list == "surfaces" ? surface_named(project, thing.name) : nullptr) {
-    return &surface->placement;
-  }
-  return nullptr;
-}
 
 Value key_value(const Keyframe& key) {
   Value value;
@@ -39,6 +31,21 @@ Edit add_edit(const std::string& list, const std::string& name, Value item) {
   return {Edit::Kind::add, list, name, "", std::move(item)};
 }
 
+const Placement* placement_of(const Project& project, const Thing* thing) {
+  if (!thing) return nullptr;
+  if (thing->list == "viewer") return &project.viewer.placement;
+  const Object* object = thing->list == "objects" ? object_named(project, thing->name) : nullptr;
+  const Surface* surface = thing->list == "surfaces" ? surface_named(project, thing->name) : nullptr;
+  return object ? &object->placement : surface ? &surface->placement : nullptr;
+}
+
+bool has_key_at(const Project& project, const Thing* thing, double time_s) {
+  const Placement* placement = placement_of(project, thing);
+  if (!placement) return false;
+  return std::any_of(placement->keys.begin(), placement->keys.end(),
+                     [&](const Keyframe& key) { return std::abs(key.time_s - time_s) < same_key_s; });
+}
+
 Value keys_value(const std::vector<Keyframe>& keys) {
   Value::Array array;
   for (const Keyframe& key : keys) array.push_back(key_value(key));
@@ -46,7 +53,7 @@ Value keys_value(const std::vector<Keyframe>& keys) {
 }
 
 Rigid pose_of(const Project& project, const Thing& thing, double time_s) {
-  if (const Placement* placement = placement_of(project, thing)) return pose_at(*placement, time_s);
+  if (const Placement* placement = placement_of(project, &thing)) return pose_at(*placement, time_s);
   for (const Projector& projector : project.projectors) {
     if (thing == Thing{"projectors", projector.name}) return projector.pose;
   }

@@ -13,6 +13,9 @@
 
 namespace focalstage {
 
+/// Keys less than this apart are the same key.
+inline constexpr double same_key_s = 1e-4;
+
 Value value_of(const glm::dvec3& v);
 Value value_of(const glm::dquat& q);  ///< x y z w
 
@@ -21,6 +24,12 @@ Edit set_edit(const Thing& thing, std::string key, Value value);
 
 /// Where a thing stands at a moment of the show.
 Rigid pose_of(const Project& project, const Thing& thing, double time_s);
+
+/// How a thing moves; null for what has no keys. `thing` may be null.
+const Placement* placement_of(const Project& project, const Thing* thing);
+
+/// Whether the thing has a key at that moment. `thing` may be null.
+bool has_key_at(const Project& project, const Thing* thing, double time_s);
 
 /// The keys of a placement as its edit carries them.
 Value keys_value(const std::vector<Keyframe>& keys);

@@ -1,15 +1,25 @@
 #include "editor/session/session.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include <glm/trigonometric.hpp>
+
 #include "core/stage/stage.h"
+#include "editor/session/edits.h"
 #include "editor/session/session_state.h"
+#include "editor/tools/pick.h"
+#include "editor/tools/room_camera.h"
 
 namespace focalstage {
 namespace {
 
 constexpr std::size_t longest_log = 1000;
+/// A view's size where it is not known yet.
+constexpr glm::dvec2 usual_pane_px(640.0, 480.0);
+/// Of the eye's view: a lens of 16 mm at 15 mm shows 56 degrees.
+constexpr double narrowest_deg = 20.0, widest_deg = 60.0;
 
 LogLine::Kind kind_of(const Status& status) { return status ? LogLine::Kind::info : LogLine::Kind::fault; }
 
@@ -32,6 +42,8 @@ Session::State::State(std::function<void()> wake_up, UserFolders user_folders)
       folders(std::move(user_folders)),
       recent(recent_projects(folders)),
       left_behind(recoveries(folders, recent)),
+      recent_rigs(focalstage::recent_rigs(folders)),
+      sample_cards(make_sample_cards()),
       preview(wake_up),
       reader(wake_up),
       rig(wake_up, folders.state),
@@ -59,6 +71,8 @@ Status Session::State::apply(std::string words, std::vector<Edit> edits, Joining
 void Session::State::tidy() {
   std::erase_if(selection.things, [&](const Thing& thing) { return !exists(project(), thing); });
   view.frame = std::clamp(view.frame, 0, std::max(0, project().frames.count - 1));
+  if (view.renaming && !exists(project(), *view.renaming)) view.renaming.reset();
+  if (view.key_time_s && !has_key_at(project(), selection.primary(), *view.key_time_s)) view.key_time_s.reset();
 }
 
 void Session::State::restage() {
@@ -125,19 +139,43 @@ void Session::State::take(Document opened) {
   document.emplace(std::move(opened));
   selection = {};
   const ViewState fresh;
+  view.renaming.reset();
+  view.key_time_s.reset();
   view.frame = 0;
   view.playing = false;
   view.filled = fresh.filled;
   view.sweep_time_s.reset();
   view.image = 0;
-  view.camera = fresh.camera;
   staged_frame = -1;
   stage = nullptr;
   preview.clear();
   recent = recent_projects(folders);
   restage();
+  fit_views();
   wish_preview();
   for (const Finding& note : document->notes()) say(LogLine::Kind::info, note.where + ": " + note.message);
+}
+
+/// The room's camera and the eye's field such that everything is seen at first.
+void Session::State::fit_views() {
+  view.camera = fitted(RoomCamera{}, usual_pane_px, stage_bounds(*stage, {}, true));
+  double slope = 0.0;
+  const Rigid viewer_from_world = stage->world_from_viewer.inverse();
+  const auto include = [&](const std::vector<Drawable>& drawables) {
+    const Bounds bounds = world_bounds(drawables);
+    for (int corner = 0; corner < 8 && !bounds.empty(); ++corner) {
+      const glm::dvec3 at((corner & 1) != 0 ? bounds.max_m.x : bounds.min_m.x,
+                          (corner & 2) != 0 ? bounds.max_m.y : bounds.min_m.y,
+                          (corner & 4) != 0 ? bounds.max_m.z : bounds.min_m.z);
+      const glm::dvec3 seen = viewer_from_world.point(at);
+      if (seen.z < -0.05) {
+        slope =
+            std::max({slope, std::abs(seen.x / seen.z), usual_pane_px.x / usual_pane_px.y * std::abs(seen.y / seen.z)});
+      }
+    }
+  };
+  for (const StagedObject& object : stage->objects) include(object.drawables);
+  view.fov_deg = std::clamp(glm::degrees(2.0 * std::atan(1.1 * slope)), narrowest_deg, widest_deg);
 }
 
 void Session::State::close_document() {
@@ -225,6 +263,7 @@ const std::shared_ptr<const Stage>& Session::stage() const { return state_->stag
 const Selection& Session::selection() const { return state_->selection; }
 
 void Session::select(std::vector<Thing> things) {
+  if (things != state_->selection.things) state_->view.key_time_s.reset();
   state_->selection.things = std::move(things);
   state_->tidy();
 }
@@ -252,16 +291,25 @@ std::optional<Fault> Session::compile_fault() const { return state_->preview.fau
 const RigLink& Session::rig() const { return state_->rig; }
 const Log& Session::log() const { return state_->log; }
 const std::vector<Task>& Session::tasks() const { return state_->jobs.tasks(); }
+void Session::cancel_task(int id) { state_->jobs.cancel(id); }
 const std::optional<LogLine>& Session::notice() const { return state_->notice; }
 void Session::dismiss_notice() { state_->notice.reset(); }
 const std::vector<std::filesystem::path>& Session::recent() const { return state_->recent; }
 const std::vector<Recovery>& Session::left_behind() const { return state_->left_behind; }
+const std::vector<SampleCard>& Session::sample_cards() const { return state_->sample_cards; }
+
+void Session::want_sample_pictures() {
+  if (!state_->drawing_samples) state_->draw_next_sample();
+}
+
+const std::vector<std::string>& Session::recent_rigs() const { return state_->recent_rigs; }
 bool Session::palette_open() const { return state_->palette_open; }
 void Session::close_palette() { state_->palette_open = false; }
 FileWish Session::file_wish() const { return state_->file_wish; }
 
 void Session::forget_file_wish() {
   state_->file_wish = FileWish::none;
+  state_->import_replaces = {};
   state_->after_save = nullptr;
 }
 

@@ -13,6 +13,7 @@
 #include "editor/preview/preview.h"
 #include "editor/rig/rig_link.h"
 #include "editor/session/jobs.h"
+#include "editor/session/sample_cards.h"
 #include "editor/session/session.h"
 
 namespace focalstage {
@@ -40,6 +41,10 @@ struct Session::State {
   std::filesystem::path clipboard_folder;  ///< of the project they come from
   std::vector<std::filesystem::path> recent;
   std::vector<Recovery> left_behind;
+  std::vector<std::string> recent_rigs;
+  std::vector<SampleCard> sample_cards;
+  std::size_t samples_drawn = 0;
+  bool drawing_samples = false;
 
   bool dragging = false;
   bool drag_has_step = false;
@@ -59,6 +64,7 @@ struct Session::State {
   bool quitting = false;
   bool palette_open = false;
   FileWish file_wish = FileWish::none;
+  Thing import_replaces;             ///< whose mesh the file to be asked for becomes; no name: a new object
   std::function<void()> after_save;  ///< what waits for an untitled project to get its place
 
   double now_s = 0.0;
@@ -87,7 +93,10 @@ struct Session::State {
   /// Drops what is selected but is no more.
   void tidy();
   void restage();
+  void fit_views();
   void wish_preview();
+  /// The picture of the next sample that has none yet.
+  void draw_next_sample();
 };
 
 struct SessionAccess {

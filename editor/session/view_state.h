@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/base/sides.h"
+#include "editor/session/thing.h"
 #include "editor/tools/handle_frame.h"
 #include "editor/tools/room_camera.h"
 
@@ -49,7 +50,12 @@ struct ViewState {
 
   std::optional<double> sweep_time_s;  ///< the moment of the sweep that all views follow; none: the whole period
   int frame = 0;
-  bool playing = false;  ///< the timeline, not the rig
+  bool playing = false;              ///< the timeline, not the rig
+  std::optional<double> key_time_s;  ///< the chosen key of the selected thing: what Delete removes
+
+  std::optional<Thing> renaming;  ///< whose name is being typed in the outline
+
+  std::string bottom_tab = "findings";  ///< the panel shown below the views
 
   bool operator==(const ViewState&) const = default;
 };

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "editor/window/base/fonts.h"
 #include "editor/window/base/frame_wish.h"
@@ -18,6 +19,7 @@ namespace focalstage {
 namespace {
 
 constexpr double frame_s = 1.0 / 60.0;
+constexpr std::size_t most_frame_times = 10000;
 constexpr int frames_after_news = 3;  // ImGui answers a press in the frame after it; popups take one more
 
 void warn(std::string_view line) {
@@ -98,7 +100,15 @@ void Editor::run() {
   }
 }
 
+std::vector<double> Editor::take_frame_times_ms() { return std::exchange(frame_times_ms_, {}); }
+
 void Editor::frame(const FrameKind& kind) {
+  const double began_s = seconds_now();
+  show_frame(kind);
+  if (frame_times_ms_.size() < most_frame_times) frame_times_ms_.push_back((seconds_now() - began_s) * 1000.0);
+}
+
+void Editor::show_frame(const FrameKind& kind) {
   want_names();
   const glm::ivec2 size = window_->framebuffer_px();
   drawn_size_px_ = size;
@@ -134,10 +144,14 @@ bool Editor::close_popup() {
 
 void Editor::follow_shortcuts() {
   const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantTextInput || session_.question() || close_popup()) return;
+  const bool asked =
+      session_.question() != nullptr || session_.file_wish() != FileWish::none || session_.palette_open();
+  const bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+  const bool elsewhere = io.WantTextInput || asked || (!asked && close_popup()) || popup;
   for (const KeyChord& chord : window_->input().pressed()) {
     for (const Command& command : commands()) {
       if (command.shortcut.empty() || !same_chord(chord, command.shortcut)) continue;
+      if (elsewhere && command.id != "rig.blackout") break;  // darkness waits for no dialog
       (void)session_.run(command.id);
       break;
     }

@@ -49,12 +49,16 @@ class Editor {
   /// Whether another frame would show something else without anything more happening.
   bool unsettled() const;
 
+  /// How long the frames took since the last call, in milliseconds: what a person waits for after a hand's move.
+  std::vector<double> take_frame_times_ms();
+
   Session& session() { return session_; }
   GlfwWindow& window() { return *window_; }
   const FramePainter& painter() const { return painter_; }
   void set_scale(double scale);
 
  private:
+  void show_frame(const FrameKind& kind);
   bool close_popup();
   void follow_shortcuts();
   void import_dropped();
@@ -76,6 +80,7 @@ class Editor {
   int lively_frames_ = 3;   ///< to draw before sleeping
   std::uint64_t named_revision_ = ~0ull;
   std::size_t named_log_ = 0;
+  std::vector<double> frame_times_ms_;
 };
 
 /// Seconds since the program started, as the session's clock counts them.

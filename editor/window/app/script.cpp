@@ -311,11 +311,12 @@ Result<std::vector<ScriptLine>> parse_script(std::string_view text, const std::s
     std::string_view line = text.substr(0, end);
     text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
     while (!line.empty() && (line.back() == '\r' || line.back() == ' ' || line.back() == '\t')) line.remove_suffix(1);
-    const ScriptWords words(line);
+    ScriptWords words(line);
     if (words.at_end() || words.rest().front() == '#') continue;
-    const auto step = parse_script_step(line, source + ":" + std::to_string(number));
+    const bool timed = words.take_if("timed");
+    const auto step = parse_script_step(words.rest(), source + ":" + std::to_string(number));
     if (!step) return step.fault();
-    lines.push_back({number, *step});
+    lines.push_back({number, timed, *step});
   }
   return lines;
 }

@@ -111,6 +111,7 @@ using ScriptStep =
 
 struct ScriptLine {
   int number = 0;
+  bool timed = false;  ///< "timed STEP": says how long its frames took
   ScriptStep step;
 };
 

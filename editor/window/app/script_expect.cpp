@@ -80,7 +80,8 @@ Status ScriptPlayer::act(const TakeScreenshot& step) {
 
 Status ScriptPlayer::act(const PrintValue& step) {
   const Value state = editor_.session().described();
-  const Value* found = value_at(state, pointer_steps(step.pointer));
+  const bool whole = step.pointer.empty() || step.pointer == "/";
+  const Value* found = whole ? &state : value_at(state, pointer_steps(step.pointer));
   std::printf("%s\n", found != nullptr ? write_json(*found).c_str() : "nothing");
   return {};
 }

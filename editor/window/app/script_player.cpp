@@ -33,6 +33,16 @@ std::vector<unsigned> characters_of(std::string_view text) {
   return codes;
 }
 
+void print_times(std::vector<double> times_ms) {
+  if (times_ms.empty()) return;
+  std::ranges::sort(times_ms);
+  const auto at = [&](double share) {
+    return times_ms[static_cast<std::size_t>(share * static_cast<double>(times_ms.size() - 1) + 0.5)];
+  };
+  std::printf("%zu frames: median %.1f ms, 95th percentile %.1f ms, longest %.1f ms\n", times_ms.size(), at(0.5),
+              at(0.95), times_ms.back());
+}
+
 }  // namespace
 
 Status ScriptPlayer::play(const ScriptStep& step, const std::string& where) {
@@ -250,19 +260,12 @@ Status ScriptPlayer::act(const SetScale& step) {
 }
 
 Status ScriptPlayer::act(const DrawFrames& step) {
-  std::vector<double> times_ms;
+  (void)editor_.take_frame_times_ms();
   for (int i = 0; i < step.count; ++i) {
-    const double began = seconds_now();
     editor_.take_news(0.0);
     editor_.frame({});
-    times_ms.push_back((seconds_now() - began) * 1000.0);
   }
-  std::ranges::sort(times_ms);
-  const auto at = [&](double share) {
-    return times_ms[static_cast<std::size_t>(share * static_cast<double>(times_ms.size() - 1) + 0.5)];
-  };
-  std::printf("%d frames: median %.1f ms, 95th percentile %.1f ms, longest %.1f ms\n", step.count, at(0.5), at(0.95),
-              times_ms.back());
+  print_times(editor_.take_frame_times_ms());
   return {};
 }
 
@@ -274,8 +277,13 @@ Status play_script(Editor& editor, const std::filesystem::path& file) {
   if (!lines) return lines.fault();
   ScriptPlayer player(editor, file.parent_path());
   for (const ScriptLine& line : *lines) {
+    (void)editor.take_frame_times_ms();
     const Status done = player.play(line.step, source + ":" + std::to_string(line.number));
     if (!done) return done;
+    if (line.timed) {
+      std::printf("%d: ", line.number);
+      print_times(editor.take_frame_times_ms());
+    }
     if (editor.session().wants_to_quit()) break;
   }
   return {};

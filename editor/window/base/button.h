@@ -18,10 +18,10 @@ enum class ButtonLook {
 
 struct ButtonStyle {
   ButtonLook look = ButtonLook::plain;
-  std::string_view icon;  ///< before the label, or alone where there is none
-  bool down = false;      ///< a toggle that is on
-  float width_px = 0.0f;  ///< 0: what it needs
-  Tip tip;                ///< with `unavailable` set it cannot be pressed
+  std::string_view icon = {};  ///< before the label, or alone where there is none
+  bool down = false;           ///< a toggle that is on
+  float width_px = 0.0f;       ///< 0: what it needs
+  Tip tip = {};                ///< with `unavailable` set it cannot be pressed
 };
 
 /// A button labelled `label`, known by that name. True when pressed.

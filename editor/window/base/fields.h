@@ -9,11 +9,11 @@
 namespace focalstage {
 
 struct FieldStyle {
-  std::string_view hint;  ///< shown while empty
-  float width_px = 0.0f;  ///< 0: the item width
-  bool focus = false;     ///< takes the keyboard in this frame
-  bool mixed = false;     ///< several things differ
-  Tip tip;
+  std::string_view hint = {};  ///< shown while empty
+  float width_px = 0.0f;       ///< 0: the item width
+  bool focus = false;          ///< takes the keyboard in this frame
+  bool mixed = false;          ///< several things differ
+  Tip tip = {};
 };
 
 struct TextChange {

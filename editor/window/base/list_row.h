@@ -9,14 +9,14 @@
 namespace focalstage {
 
 struct ListRowStyle {
-  std::string_view icon;
+  std::string_view icon = {};
   std::uint32_t icon_colour = theme::dim;
   std::uint32_t text_colour = theme::text;
-  std::string_view right;  ///< dim, at the right end: a shortcut, a count
+  std::string_view right = {};  ///< dim, at the right end: a shortcut, a count
   bool selected = false;
   float indent_px = 0.0f;
   float right_room_px = 0.0f;  ///< left free at the right for buttons drawn over it
-  Tip tip;                     ///< with `unavailable` set it is faint and answers nothing
+  Tip tip = {};                ///< with `unavailable` set it is faint and answers nothing
 };
 
 struct RowPress {

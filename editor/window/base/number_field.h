@@ -8,14 +8,14 @@
 namespace focalstage {
 
 struct NumberStyle {
-  std::string_view unit;
+  std::string_view unit = {};
   int digits = 3;
   double step = 0.005;  ///< per pixel of a drag; Shift: a tenth, Ctrl: ten times
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
   bool mixed = false;     ///< several things differ: shows "—", takes typed numbers only
   float width_px = 0.0f;  ///< 0: the item width, which in a property row is the right column
-  Tip tip;                ///< with `unavailable` set it can only be read
+  Tip tip = {};           ///< with `unavailable` set it can only be read
 };
 
 struct NumberChange {

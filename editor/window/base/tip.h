@@ -6,9 +6,9 @@ namespace focalstage {
 
 /// What a tooltip says.
 struct Tip {
-  std::string_view help;
-  std::string_view shortcut;
-  std::string_view unavailable;  ///< why it cannot be done now
+  std::string_view help = {};
+  std::string_view shortcut = {};
+  std::string_view unavailable = {};  ///< why it cannot be done now
 };
 
 /// Shows the tip once the hand has rested on ImGui's last item.

@@ -48,6 +48,16 @@ std::string slice_words(const SliceReading& slice) {
          fixed_text(slice.weight, 2);
 }
 
+PaneTooltip::PaneTooltip() {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {px(10), px(8)});
+  ImGui::BeginTooltip();
+}
+
+PaneTooltip::~PaneTooltip() {
+  ImGui::EndTooltip();
+  ImGui::PopStyleVar();
+}
+
 void draw_hint(const PaneRect& rect, std::string_view words) {
   const std::string text(words);
   const float width = std::max(rect.size.x - px(48), px(60));

@@ -17,7 +17,7 @@ struct ImDrawList;
 
 namespace focalstage {
 
-/// "left, -0.50 D", "surface light, 0.00 D"
+/// "left eye, -0.50 D", "both eyes, 0.00 D, surface light"
 std::string image_words(const ImageSpec& spec);
 /// "L -0.5"
 std::string slot_label(const Slot& slot);
@@ -27,6 +27,15 @@ std::string slot_words(const Slot& slot);
 std::string pixel_words(glm::ivec2 pixel);
 std::string point_words(const PixelReading& reading);
 std::string slice_words(const SliceReading& slice);
+
+/// A tooltip that follows the pointer, with the window's usual padding (panes have none).
+class PaneTooltip {
+ public:
+  PaneTooltip();
+  ~PaneTooltip();
+  PaneTooltip(const PaneTooltip&) = delete;
+  PaneTooltip& operator=(const PaneTooltip&) = delete;
+};
 
 /// Words in the middle of an empty pane.
 void draw_hint(const PaneRect& rect, std::string_view words);

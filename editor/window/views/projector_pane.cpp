@@ -114,7 +114,7 @@ void ProjectorPane::draw(Session& session, const PaneRect& rect) {
     return;
   }
   answer_mouse(session, area);
-  draw_reading(session, area);
+  draw_reading(session);
   draw_chips(session, area);
   if (strip > 0.0f) draw_strip(session, {{rect.min.x, rect.min.y + area.size.y}, {rect.size.x, strip}});
 }
@@ -178,11 +178,11 @@ void ProjectorPane::answer_mouse(Session& session, const PaneRect& area) {
   }
 }
 
-void ProjectorPane::draw_reading(Session& session, const PaneRect& area) {
+void ProjectorPane::draw_reading(const Session& session) {
   if (!ImGui::IsItemHovered() || ImGui::IsItemActive()) return;
   const auto reading = session.pixel_reading();
   if (!reading) return;
-  ImGui::BeginTooltip();
+  const PaneTooltip tooltip;
   text_line(pixel_words(reading->pixel));
   if (reading->surface.empty()) {
     text_line("falls on no surface", theme::dim);
@@ -193,8 +193,6 @@ void ProjectorPane::draw_reading(Session& session, const PaneRect& area) {
       text_line(slice_words(slice), slice.code > 0 ? theme::text : theme::faint);
     }
   }
-  ImGui::EndTooltip();
-  (void)area;
 }
 
 void ProjectorPane::draw_strip(Session& session, const PaneRect& rect) {

@@ -42,7 +42,7 @@ class ProjectorPane : public Pane {
   void draw_chips(Session& session, const PaneRect& area);
   void draw_strip(Session& session, const PaneRect& rect);
   void answer_mouse(Session& session, const PaneRect& area);
-  void draw_reading(Session& session, const PaneRect& area);
+  void draw_reading(const Session& session);
   static float strip_height(const PaneRect& rect);
 
   ImagePlane plane_;

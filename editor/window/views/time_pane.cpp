@@ -90,7 +90,7 @@ void TimePane::draw(Session& session, const PaneRect& rect) {
   axes.low_d -= margin_d;
   axes.high_d += margin_d;
   axes.lanes_px = px(44);
-  const float left = px(46), right = px(64), top = px(40), bottom = px(24) + axes.lanes_px;
+  const float left = px(54), right = px(64), top = px(40), bottom = px(24) + axes.lanes_px;
   axes.plot = {{rect.min.x + left, rect.min.y + top}, {rect.size.x - left - right, rect.size.y - top - bottom}};
   if (axes.plot.size.x < px(80) || axes.plot.size.y < px(40)) {
     draw_hint(rect, "Make this view larger to see the sweep.");
@@ -98,10 +98,10 @@ void TimePane::draw(Session& session, const PaneRect& rect) {
   }
   draw_axes(axes);
   draw_shutters(axes);
-  draw_slots(session, axes);
+  draw_slots(axes);
   scrub(session, axes);
   drag_slices(session, axes);
-  draw_reading(session, axes);
+  draw_reading(axes);
 }
 
 void TimePane::draw_axes(const Axes& axes) const {
@@ -112,7 +112,7 @@ void TimePane::draw_axes(const Axes& axes) const {
   for (double d = std::ceil(axes.low_d / power_step_d) * power_step_d; d <= axes.high_d; d += power_step_d) {
     const bool zero = std::abs(d) < 1e-9;
     list.AddLine({min.x, axes.y(d)}, {max.x, axes.y(d)}, zero ? theme::faint : theme::line);
-    const std::string text = signed_text(zero ? 0.0 : d, power_step_d < 0.1 ? 2 : 1);
+    const std::string text = signed_text(zero ? 0.0 : d, power_step_d < 0.1 ? 2 : 1) + " D";
     const glm::vec2 size = small_text_size(text);
     small_text(list, {min.x - size.x - px(6), axes.y(d) - 0.5f * size.y}, text, theme::dim);
   }
@@ -124,7 +124,6 @@ void TimePane::draw_axes(const Axes& axes) const {
     small_text(list, {x - 0.5f * small_text_size(text).x, max.y + axes.lanes_px + px(4)}, text, theme::dim);
   }
   small_text(list, {max.x + px(14), max.y + axes.lanes_px + px(4)}, "ms", theme::dim);
-  small_text(list, {min.x - px(38), min.y - px(18)}, "D", theme::dim);
 }
 
 /// A lane for each shutter below the plot, and the dead windows over both.
@@ -150,7 +149,7 @@ void TimePane::draw_shutters(const Axes& axes) const {
   }
 }
 
-void TimePane::draw_slots(const Session& session, const Axes& axes) const {
+void TimePane::draw_slots(const Axes& axes) const {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float bottom = axes.plot.min.y + axes.plot.size.y;
   for (const Slot& slot : axes.schedule->slots) {
@@ -175,7 +174,6 @@ void TimePane::draw_slots(const Session& session, const Axes& axes) const {
     }
     list.AddPolyline(line.data(), static_cast<int>(line.size()), power_colour, 0, px(2));
   }
-  (void)session;
 }
 
 /// Each slice's power as a line across with a handle at its right end.
@@ -248,13 +246,13 @@ void TimePane::scrub(Session& session, const Axes& axes) {
   }
 }
 
-void TimePane::draw_reading(const Session& session, const Axes& axes) const {
+void TimePane::draw_reading(const Axes& axes) const {
   const glm::vec2 at = from_im(ImGui::GetIO().MousePos);
   const glm::vec2 max = axes.plot.min + axes.plot.size + glm::vec2(0.0f, axes.lanes_px);
   const bool inside = at.x >= axes.plot.min.x && at.y >= axes.plot.min.y && at.x <= max.x && at.y <= max.y;
   if (!inside || held_slice_ || !ImGui::IsWindowHovered()) return;
   const double time_s = axes.time_s(at.x), share = time_s / axes.period_s;
-  ImGui::BeginTooltip();
+  const PaneTooltip tooltip;
   text_line(fixed_text(time_s * 1e3, 2) + " ms");
   text_line("lens " + signed_text(sample_at(axes.schedule->lens_power_d[Side::left], share), 3) + " D", power_colour);
   for (const Side side : both_sides) {
@@ -266,8 +264,6 @@ void TimePane::draw_reading(const Session& session, const Axes& axes) const {
   for (const Slot& slot : axes.schedule->slots) {
     if (time_s >= slot.start_s && time_s <= slot.start_s + slot.exposure_s) text_line(slot_words(slot));
   }
-  ImGui::EndTooltip();
-  (void)session;
 }
 
 }  // namespace focalstage

@@ -22,10 +22,10 @@ class TimePane : public Pane {
   struct Axes;
   void draw_axes(const Axes& axes) const;
   void draw_shutters(const Axes& axes) const;
-  void draw_slots(const Session& session, const Axes& axes) const;
+  void draw_slots(const Axes& axes) const;
   void drag_slices(Session& session, const Axes& axes);
   void scrub(Session& session, const Axes& axes);
-  void draw_reading(const Session& session, const Axes& axes) const;
+  void draw_reading(const Axes& axes) const;
 
   std::optional<std::size_t> held_slice_;
 };

@@ -5,7 +5,9 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "core/mesh/measure.h"
 #include "editor/document/recent.h"
+#include "io/image/png.h"
 #include "io/project/project_file.h"
 
 using namespace focalstage;
@@ -169,6 +171,31 @@ TEST_CASE("imported files travel with the project, and a broken one changes noth
   REQUIRE(findings.size() == 1);
   CHECK(findings[0].code == "asset.missing");
   CHECK(findings[0].where == "/objects/0/mesh/file");
+}
+
+TEST_CASE("a picture becomes a plane of its shape that shows its colours") {
+  const Folder in;
+  const std::vector<std::uint8_t> codes{255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255,
+                                        0,   0, 0, 9, 9,   9, 1, 2, 3,   4,   5,   6};
+  REQUIRE(write_png(in.path / "flag.PNG", 4, 2, 3, codes).ok());
+  auto document = Document::from_sample("", in.folders);
+  REQUIRE(document.ok());
+  const auto reference = bring_in(in.path / "flag.PNG", document->folder());
+  REQUIRE_MESSAGE(reference.ok(), (reference.ok() ? "" : describe(reference.fault())));
+  CHECK(*reference == "assets/flag.glb");
+  const auto read = AssetShelf::read(document->folder(), {*reference});
+  document->shelf().put(read);
+  const auto& model = document->shelf().assets().models.at(*reference);
+  const Bounds bounds = mesh_bounds(*model->nodes[0].parts[0].mesh);
+  CHECK(bounds.size_m().x == doctest::Approx(1.0));
+  CHECK(bounds.size_m().y == doctest::Approx(0.5));
+  REQUIRE(model->materials[0].texture);
+  CHECK(model->materials[0].unlit);
+  CHECK(model->materials[0].texture->width_px == 4);
+  CHECK(model->materials[0].texture->rgba[4] == 0);
+  CHECK(model->materials[0].texture->rgba[5] == 255);
+  write(in.path / "broken.png", "not a picture");
+  CHECK_FALSE(bring_in(in.path / "broken.png", document->folder()).ok());
 }
 
 TEST_CASE("a file changed by others is noticed, and taken as one step of undo") {

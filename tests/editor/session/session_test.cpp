@@ -10,7 +10,11 @@
 #include <set>
 #include <thread>
 
+#include <glm/geometric.hpp>
+
 #include "editor/session/edits.h"
+#include "io/files/files.h"
+#include "io/image/png.h"
 #include "io/project/project_file.h"
 
 using namespace focalstage;
@@ -194,6 +198,33 @@ TEST_CASE("copies, groups, hides and locks; undo takes all of it back") {
   CHECK(session.project().objects.size() == 6);
 }
 
+TEST_CASE("things are aligned, put at one distance and dropped, each as one step") {
+  const Home home;
+  Session session([] {});
+  open_sample(session, "first-light");
+  session.update(now_s());
+  session.select({{"objects", "rabbit"}});
+  CHECK_FALSE(session.run("edit.align").ok());
+  // The screen is upright: only what is above its upper edge could come to rest on it.
+  CHECK(session.run("edit.drop").fault().code == "session.no-surface");
+  REQUIRE(session.run("edit.drop-along-sight").ok());
+  const Object& rabbit = *object_named(session.project(), "rabbit");
+  CHECK(rabbit.placement.pose.position_m.z < -0.5);
+  CHECK(rabbit.placement.pose.position_m.z > -0.6);
+  REQUIRE(session.run("add.sphere").ok());
+  session.select({{"objects", "sphere"}, {"objects", "rabbit"}});
+  REQUIRE(session.run("edit.align", args({{"axis", "y"}, {"to", "low"}})).ok());
+  REQUIRE(session.run("edit.same-distance").ok());
+  const auto distance = [&](const char* name) {
+    return glm::length(object_named(session.project(), name)->placement.pose.position_m);
+  };
+  CHECK(distance("sphere") == doctest::Approx(distance("rabbit")).epsilon(1e-9));
+  CHECK(session.document().history().place() == 4);
+  const double before = session.view().camera.distance_m;
+  REQUIRE(session.run("view.zoom-selection").ok());
+  CHECK(session.view().camera.distance_m < before);
+}
+
 TEST_CASE("closing with unsaved edits asks, and saving an untitled project asks for its place") {
   const Home home;
   Session session([] {});
@@ -227,6 +258,26 @@ TEST_CASE("a broken mesh is refused in words, and a good one becomes an object")
   REQUIRE(wait(session, [&] { return session.project().objects.size() == 3; }));
   REQUIRE(wait_compiled(session));
   CHECK(session.stage()->objects.size() == 3);
+}
+
+TEST_CASE("what a client should see is written as pictures") {
+  const Home home;
+  Session session([] {});
+  open_sample(session, "first-light");
+  REQUIRE(wait_compiled(session));
+  const auto count = [&] {
+    std::error_code none;
+    return std::distance(fs::directory_iterator(home.path / "out", none), fs::directory_iterator());
+  };
+  REQUIRE(session.run("export.stereo", args({{"path", (home.path / "out").string()}})).ok());
+  REQUIRE(wait(session, [&] { return count() == 4 && session.tasks().empty(); }));
+  const auto bytes = read_file(home.path / "out" / "stereo-side-by-side.png", 1u << 26);
+  REQUIRE(bytes.ok());
+  const auto both = decode_image(*bytes, "both");
+  REQUIRE(both.ok());
+  CHECK(both->width_px == 2560);
+  REQUIRE(session.run("export.focal-pull", args({{"path", (home.path / "out").string()}, {"frames", 3.0}})).ok());
+  REQUIRE(wait(session, [&] { return count() >= 7 && session.tasks().empty(); }));
 }
 
 TEST_CASE("what cannot be opened costs nothing of what is open") {
