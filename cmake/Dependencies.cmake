@@ -26,3 +26,21 @@ find_package(valijson QUIET)
 if(NOT TARGET ValiJSON::valijson)
   add_library(ValiJSON::valijson INTERFACE IMPORTED)
 endif()
+
+# The window: GLFW, Dear ImGui with its GL3 backend and FreeType builder, and VTK by component.
+find_package(glfw3 3.3 REQUIRED)
+find_package(Freetype REQUIRED)
+find_package(VTK 9.1 REQUIRED COMPONENTS
+             CommonColor CommonCore CommonDataModel CommonExecutionModel CommonMath CommonTransforms FiltersCore FiltersGeneral
+             FiltersModeling FiltersSources ImagingCore RenderingCore RenderingImage RenderingOpenGL2 RenderingUI)
+pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
+add_library(epoxy::epoxy ALIAS PkgConfig::EPOXY)
+add_library(glfw::glfw ALIAS glfw)
+add_library(vtk::vtk INTERFACE IMPORTED)
+target_link_libraries(vtk::vtk INTERFACE ${VTK_LIBRARIES})
+find_path(IMGUI_INCLUDE imgui.h PATH_SUFFIXES imgui REQUIRED)
+find_library(IMGUI_LIBRARY imgui REQUIRED)
+find_library(STB_LIBRARY stb REQUIRED)
+add_library(imgui::imgui INTERFACE IMPORTED)
+target_include_directories(imgui::imgui SYSTEM INTERFACE ${IMGUI_INCLUDE})
+target_link_libraries(imgui::imgui INTERFACE ${IMGUI_LIBRARY} ${STB_LIBRARY} Freetype::Freetype glfw ${CMAKE_DL_LIBS})

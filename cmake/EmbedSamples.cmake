@@ -1,6 +1,6 @@
 cmake_minimum_required(VERSION 3.25)
 
-# Writes OUTPUT: the FILES below ROOT, a folder per sample, as the table that editor/cli/samples.h promises.
+# Writes OUTPUT: the FILES below ROOT, a folder per sample, as the table that editor/samples/samples.h promises.
 list(SORT FILES)
 set(names)
 foreach(file ${FILES})
@@ -27,7 +27,7 @@ foreach(file ${FILES})
   string(APPEND arrays "constexpr char ${array}[] = ${literal};\n")
   string(APPEND entries_${id} "    {\"${path}\", {${array}, ${size}}},\n")
 endforeach()
-set(text "// Made from projects/ by cmake/EmbedSamples.cmake.\n#include \"editor/cli/samples.h\"\n\n#include <array>\n\n")
+set(text "// Made from projects/ by cmake/EmbedSamples.cmake.\n#include \"editor/samples/samples.h\"\n\n#include <array>\n\n")
 string(APPEND text "namespace focalstage {\nnamespace {\n\n${arrays}\n")
 set(table "")
 foreach(name ${names})

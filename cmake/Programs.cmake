@@ -13,3 +13,4 @@ endfunction()
 
 focalstage_program(editor/program NAME focalstage USES editor/cli)
 focalstage_program(devices/program NAME focalstage-runtime USES devices/runtime LIBS CLI11::CLI11 spdlog::spdlog)
+focalstage_program(editor/window/program NAME focalstage-editor USES editor/window/app)

@@ -27,9 +27,10 @@ function(focalstage_room room)
   endif()
 endfunction()
 
-# The unit tests of a room: tests/<room>/*_test.cpp as one doctest program, one ctest entry.
+# The unit tests of a room: tests/<room>/*_test.cpp as one doctest program, one ctest entry. DISPLAY: they need one, and
+# get one that nobody sees.
 function(focalstage_room_tests room)
-  cmake_parse_arguments(TESTS "" "" "USES;LIBS;LABELS" ${ARGN})
+  cmake_parse_arguments(TESTS "DISPLAY" "" "USES;LIBS;LABELS" ${ARGN})
   string(REPLACE "/" "_" name ${room})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/tests/${room}/*_test.cpp)
   if(NOT sources)
@@ -49,6 +50,10 @@ function(focalstage_room_tests room)
     add_custom_target(unit_tests)  # builds all of them and nothing else
   endif()
   add_dependencies(unit_tests test_${name})
-  add_test(NAME ${name} COMMAND test_${name})
+  set(run_by)
+  if(TESTS_DISPLAY)
+    set(run_by ${PROJECT_SOURCE_DIR}/tests/support/with-display)
+  endif()
+  add_test(NAME ${name} COMMAND ${run_by} $<TARGET_FILE:test_${name}>)
   set_tests_properties(${name} PROPERTIES LABELS "unit;${TESTS_LABELS}" TIMEOUT 300)
 endfunction()

@@ -9,6 +9,7 @@ focalstage_room(core/optics     USES core/stage core/scene)
 focalstage_room(core/compile    USES core/optics core/stage        PRIVATE_LIBS TBB::tbb)
 focalstage_room(core/reference  USES core/compile core/optics core/stage PRIVATE_LIBS embree TBB::tbb)
 focalstage_room(core/schedule   USES core/optics core/scene)
+focalstage_room(core/retina     USES core/optics core/stage        PRIVATE_LIBS TBB::tbb)
 focalstage_room(core/check      USES core/compile core/schedule core/optics core/scene)
 
 # io: everything that becomes bytes
@@ -16,19 +17,36 @@ focalstage_room(io/files        USES core/base                     PRIVATE_LIBS 
 focalstage_room(io/json         USES core/scene                    PRIVATE_LIBS nlohmann_json::nlohmann_json)
 focalstage_room(io/image        USES io/files core/mesh            PRIVATE_LIBS PNG::PNG JPEG::JPEG)
 focalstage_room(io/project      USES io/json io/files core/scene   PRIVATE_LIBS ValiJSON::valijson nlohmann_json::nlohmann_json)
+focalstage_room(io/journal      USES io/json io/files core/scene)
 focalstage_room(io/assets       USES io/image io/files core/scene core/mesh PRIVATE_LIBS TinyGLTF::TinyGLTF nlohmann_json::nlohmann_json)
 focalstage_room(io/show         USES io/project io/assets io/files core/schedule core/compile core/stage
                                 PRIVATE_LIBS hdf5::hdf5 deflate::deflate TBB::tbb)
 focalstage_room(io/export       USES io/show io/image io/files      PRIVATE_LIBS TBB::tbb)
-focalstage_room(io/protocol     USES io/project io/files core/scene)
+focalstage_room(io/protocol     USES io/project io/assets io/json io/files core/compile core/scene)
 
 # devices: the rig; drivers see only core
 focalstage_room(devices/sim     USES core/base)
 focalstage_room(devices/player  USES devices/sim io/show core/schedule)
-focalstage_room(devices/runtime USES devices/player devices/sim io/show io/project io/protocol io/files core/check
+focalstage_room(devices/runtime USES devices/player devices/sim io/show io/project io/assets io/json io/protocol io/files
+                                     core/check core/compile core/schedule core/stage
                                 PRIVATE_LIBS spdlog::spdlog gRPC::grpc++ gRPC::grpc++_reflection)
 
 # editor: what people touch
-focalstage_room(editor/cli      USES io/project io/assets io/show io/export io/protocol core/check core/reference
-                                     core/compile core/schedule
+focalstage_room(editor/samples  USES io/files core/base)
+focalstage_room(editor/pipeline USES io/project io/assets io/show core/check core/reference core/compile core/retina
+                                     core/schedule)
+focalstage_room(editor/cli      USES editor/samples editor/pipeline io/project io/assets io/show io/export io/protocol
+                                     core/check core/reference core/compile core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
+focalstage_room(editor/document USES editor/samples io/journal io/project io/assets io/files core/scene)
+focalstage_room(editor/preview  USES core/check core/compile core/reference core/retina core/schedule core/stage)
+focalstage_room(editor/rig      USES io/protocol io/project io/assets io/files)
+focalstage_room(editor/tools    USES core/compile core/stage core/optics core/scene core/mesh)
+focalstage_room(editor/session  USES editor/tools editor/document editor/preview editor/rig editor/pipeline io/export io/image)
+
+# the window: GLFW, Dear ImGui and VTK live here and nowhere else
+focalstage_room(editor/window/base   USES editor/session           LIBS imgui::imgui vtk::vtk PRIVATE_LIBS epoxy::epoxy)
+focalstage_room(editor/window/views  USES editor/window/base editor/tools)
+focalstage_room(editor/window/panels USES editor/window/base)
+focalstage_room(editor/window/app    USES editor/window/views editor/window/panels
+                                     PRIVATE_LIBS glfw::glfw epoxy::epoxy CLI11::CLI11)

@@ -91,10 +91,13 @@ std::optional<SliceSample> Samples::slice(Side side, const EyePoint& eye, std::s
   const double lens_to_pupil_m = settings_->lens_to_pupil_m;
   SliceSample sample{*towards, face.thing, 0.0, 0.0, glm::dvec3(0.0)};
   if (object.depth.mode == DepthMode::slice) {
-    sample.weight = static_cast<std::size_t>(object.depth.index) == n ? 1.0 : 0.0;
+    const auto pinned = static_cast<std::size_t>(object.depth.index);
+    sample.weight = pinned == n ? 1.0 : 0.0;
+    sample.wanted_d = settings_->slices.powers_d[pinned];
   } else {
     const double plane_m = plane_distance_m(*towards, eye.point_m, eye.normal, lens_to_pupil_m);
     const double wanted_d = 1.0 / plane_m - wanted_vergence_d(object.depth, met->depth_m - lens_to_pupil_m);
+    sample.wanted_d = wanted_d;
     sample.weight = rule_.weight(n, wanted_d);
     sample.beyond_d = rule_.beyond_d(wanted_d);
     sample.below = rule_.is_below(wanted_d);

@@ -40,7 +40,8 @@ struct SliceSample {
   double weight = 0.0;
   double beyond_d = 0.0;  ///< how far the wanted power lies beyond the outermost slice
   glm::dvec3 colour{0.0};
-  bool below = false;  ///< the wanted power lies below the lowest slice, not above the highest
+  bool below = false;     ///< the wanted power lies below the lowest slice, not above the highest
+  double wanted_d = 0.0;  ///< the power that would put it where it is wanted; a pinned slice's own
 };
 
 /// The chain from a projector pixel to the light of a slice, link by link and for any place in the raster. Design

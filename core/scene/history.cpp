@@ -1,30 +1,35 @@
 #include "core/scene/history.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace focalstage {
 namespace {
 
-/// Undo then replays at most this many edits, a few milliseconds, and a long day's history stays small.
-constexpr std::size_t edits_per_snapshot = 16;
+/// Undo then replays at most this many steps, a few milliseconds, and a long day's history stays small.
+constexpr std::size_t steps_per_snapshot = 16;
 
-bool sets_the_same(const Edit& a, const Edit& b) {
+bool sets_the_same_key(const Edit& a, const Edit& b) {
   return a.kind == Edit::Kind::set && b.kind == Edit::Kind::set && a.list == b.list && a.name == b.name &&
          a.key == b.key;
+}
+
+bool sets_the_same(const Step& a, const Step& b) {
+  return std::equal(a.edits.begin(), a.edits.end(), b.edits.begin(), b.edits.end(), sets_the_same_key);
 }
 
 }  // namespace
 
 History::History(Project start) : now_(std::make_shared<const Project>(std::move(start))) { kept_[0] = now_; }
 
-Status History::apply(const Edit& edit, Joining joining) {
+Status History::apply(Step step, Joining joining) {
   const bool merges =
-      joining == Joining::continues_last && place_ > 0 && place_ == edits_.size() && sets_the_same(edits_.back(), edit);
+      joining == Joining::continues_last && place_ > 0 && place_ == steps_.size() && sets_the_same(steps_.back(), step);
   const std::size_t base = merges ? place_ - 1 : place_;
-  auto changed = focalstage::apply(merges ? *state_at(base) : *now_, edit);
+  auto changed = apply_all(merges ? *state_at(base) : *now_, step.edits);
   if (!changed) return changed.fault();
-  edits_.resize(base);
-  edits_.push_back(edit);
+  steps_.resize(base);
+  steps_.push_back(std::move(step));
   kept_.erase(kept_.upper_bound(base), kept_.end());
   stand_at(base + 1, std::make_shared<const Project>(std::move(*changed)));
   return {};
@@ -39,7 +44,7 @@ void History::redo() {
 }
 
 void History::jump(std::size_t place) {
-  place = std::min(place, edits_.size());
+  place = std::min(place, steps_.size());
   if (place != place_) stand_at(place, state_at(place));
 }
 
@@ -47,13 +52,13 @@ History::Snapshot History::state_at(std::size_t place) const {
   const auto kept = std::prev(kept_.upper_bound(place));
   if (kept->first == place) return kept->second;
   Project project = *kept->second;
-  // These edits were applied once already, to the same states: they cannot fail.
-  for (std::size_t i = kept->first; i < place; ++i) project = *focalstage::apply(project, edits_[i]);
+  // These steps were applied once already, to the same states: they cannot fail.
+  for (std::size_t i = kept->first; i < place; ++i) project = *apply_all(project, steps_[i].edits);
   return std::make_shared<const Project>(std::move(project));
 }
 
 void History::stand_at(std::size_t place, Snapshot state) {
-  if (place % edits_per_snapshot == 0) kept_[place] = state;
+  if (place % steps_per_snapshot == 0) kept_[place] = state;
   place_ = place;
   now_ = std::move(state);
   ++revision_;

@@ -11,6 +11,7 @@
 
 #include "core/base/result.h"
 #include "core/compile/frame.h"
+#include "devices/player/prepared_frames.h"
 #include "devices/player/priority_mutex.h"
 
 namespace focalstage {
@@ -27,23 +28,14 @@ class FrameSource {
 };
 
 /// Reads frames before they are needed, in a thread of its own, and keeps as many as memory allows.
-class FrameCache {
+class FrameCache final : public PreparedFrames {
  public:
-  using Frame = std::shared_ptr<const FrameImages>;
-
   FrameCache(std::unique_ptr<FrameSource> source, int frames, std::size_t bytes_per_frame,
              std::size_t budget_bytes = std::size_t{384} << 20);
 
-  /// The frame if it is there, null if it is not yet; from now on it and those after it are read. A fault where it
-  /// can't be read.
-  Result<Frame> get(int frame);
-
-  /// The same, but waits until it is there.
-  Result<Frame> wait_for(int frame);
-
-  /// True once `frame`, to which play is about to jump, need not be waited for: it is there, or can't be read. What
-  /// plays now is read and kept as before.
-  bool prepare(int frame);
+  Result<Frame> get(int frame) override;
+  Result<Frame> wait_for(int frame) override;
+  bool prepare(int frame) override;
 
  private:
   void read_ahead(const std::stop_token& stop);

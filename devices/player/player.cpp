@@ -53,8 +53,8 @@ void Player::begin(std::shared_ptr<const LoadedShow> show) {
 
 void Player::change_show() {
   if (!next_show_) return;
-  FrameCache& frames = *next_show_->frames;
-  const Result<FrameCache::Frame> first = settings_.wait_for_frames ? frames.wait_for(0) : frames.get(0);
+  PreparedFrames& frames = *next_show_->frames;
+  const Result<PreparedFrames::Frame> first = settings_.wait_for_frames ? frames.wait_for(0) : frames.get(0);
   if (first && !*first) return;
   begin(next_show_);
 }
@@ -91,7 +91,7 @@ Status Player::cue(const std::string& name) {
 
 void Player::follow_cue() {
   if (!cued_frame_) return;
-  FrameCache& frames = *show_->frames;
+  PreparedFrames& frames = *show_->frames;
   const bool there = frames.prepare(*cued_frame_);
   if (!there && !settings_.wait_for_frames && running()) return;
   frame_ = *std::exchange(cued_frame_, std::nullopt);
@@ -129,8 +129,8 @@ void Player::advance() {
 }
 
 bool Player::fetch(AskedSweep& sweep) {
-  FrameCache& frames = *show_->frames;
-  Result<FrameCache::Frame> frame = settings_.wait_for_frames ? frames.wait_for(frame_) : frames.get(frame_);
+  PreparedFrames& frames = *show_->frames;
+  Result<PreparedFrames::Frame> frame = settings_.wait_for_frames ? frames.wait_for(frame_) : frames.get(frame_);
   if (!frame) {
     blackout(sweep.start_s, frame.fault());
     return false;
@@ -162,6 +162,7 @@ AskedSweep Player::hand_over(double start_s) {
   AskedSweep sweep;
   sweep.show = show_;
   sweep.start_s = start_s;
+  sweep.number = sweeps_;
   sweep.frame = frame_;
   const bool settled = to_settle_ == 0;
   if (settled) {

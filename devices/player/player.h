@@ -1,24 +1,30 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/result.h"
-#include "devices/player/frame_cache.h"
 #include "devices/player/limits.h"
+#include "devices/player/prepared_frames.h"
 #include "devices/player/sweep_plan.h"
 
 namespace focalstage {
 
-/// A show ready to play; what plays is always one whole show.
+/// A show ready to play, pushed as a file or made in memory of one live revision; what plays is always one whole show.
 struct LoadedShow {
-  std::string sha256;
+  std::string sha256;  ///< empty for a live one
   ShowHeader header;
   SweepPlan plan;
-  std::unique_ptr<FrameCache> frames;
+  std::unique_ptr<PreparedFrames> frames;
+  std::uint64_t revision = 0;  ///< of the live link; 0: pushed
+
+  /// Called once, after the first sweep whose light all came, with its number and start. From the thread that keeps the
+  /// rig's time: it must not wait.
+  std::function<void(std::uint64_t sweep, double start_s)> on_light = {};
 };
 
 enum class PlayState { empty, ready, playing, holding, dark };
@@ -36,6 +42,7 @@ struct PlayerSettings {
 struct AskedSweep {
   std::shared_ptr<const LoadedShow> show;
   double start_s = 0.0;
+  std::uint64_t number = 0;  ///< of all sweeps handed over
   int frame = 0;
   bool lit = false;               ///< false: nothing was asked (lenses settling) or nothing could be shown
   bool missed = false;            ///< light was due, but its frame was not there in time

@@ -8,6 +8,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "devices/runtime/live_session.h"
 #include "devices/runtime/show_loader.h"
 #include "devices/runtime/sim_description.h"
 #include "io/protocol/convert.h"
@@ -33,6 +34,11 @@ v1::RigState RigService::state() const {
   RigState state = rig_.state();
   state.holder = desk_.holder();
   return message_from(state);
+}
+
+RigTerms RigService::terms() const {
+  return {[settings = settings_](double hz) { return describe_sim(settings.sim, settings.limits, hz); },
+          settings_.limits};
 }
 
 /// What needs the rig for oneself: the token first, then the step, then the state after it.
@@ -108,8 +114,7 @@ grpc::Status RigService::Activate(grpc::ServerContext*, const v1::ActivateReques
   return held(request->token(), reply, [&]() -> Status {
     const auto path = store_.find(request->sha256());
     if (!path) return path.fault();
-    const auto rig_at = [&](double hz) { return describe_sim(settings_.sim, settings_.limits, hz); };
-    auto show = load_show(*path, request->sha256(), rig_at, settings_.limits);
+    auto show = load_show(*path, request->sha256(), terms());
     if (!show) return show.fault();
     if (Status active = rig_.activate(std::move(*show)); !active) return active;
     spdlog::info("show {} is active", request->sha256());
@@ -158,6 +163,24 @@ grpc::Status RigService::Watch(grpc::ServerContext* context, const v1::WatchRequ
     }
   }
   return grpc::Status::OK;
+}
+
+grpc::Status RigService::Live(grpc::ServerContext* context,
+                              grpc::ServerReaderWriter<v1::LiveReply, v1::LiveRequest>* stream) {
+  v1::LiveRequest first;
+  if (!stream->Read(&first) || !first.has_begin()) {
+    return refused("live", {"rig.request", "begin", "a live link begins with the token", "say begin first"});
+  }
+  if (Status mine = desk_.use(first.begin().token()); !mine) return status_from(mine.fault());
+  if (live_.exchange(true)) {
+    return refused("live", {"rig.refused", "live", "a live link is open already", "end that one first"});
+  }
+  spdlog::info("{} is live", desk_.holder());
+  LiveBench bench{rig_, desk_, assets_, frames_, terms(), settings_.clock, [this] { return state(); }, stopping_};
+  grpc::Status ended = LiveSession(bench, *context, *stream).run(first.begin());
+  live_ = false;
+  spdlog::info("the live link has ended");
+  return ended;
 }
 
 }  // namespace focalstage

@@ -2,7 +2,10 @@
 
 #include <atomic>
 
+#include "devices/runtime/admission.h"
+#include "devices/runtime/asset_store.h"
 #include "devices/runtime/lease.h"
+#include "devices/runtime/live_frames.h"
 #include "devices/runtime/rig_thread.h"
 #include "devices/runtime/show_store.h"
 #include "focalstage/v1/rig.grpc.pb.h"
@@ -12,10 +15,11 @@ namespace focalstage {
 /// The calls of rig.proto, each turned into one step of store, lease or rig.
 class RigService final : public v1::Rig::Service {
  public:
-  RigService(const RigThreadSettings& settings, ShowStore& store, RigThread& rig, LeaseDesk& desk)
-      : settings_(settings), store_(store), rig_(rig), desk_(desk) {}
+  RigService(const RigThreadSettings& settings, ShowStore& store, AssetStore& assets, LiveFrames& frames,
+             RigThread& rig, LeaseDesk& desk)
+      : settings_(settings), store_(store), assets_(assets), frames_(frames), rig_(rig), desk_(desk) {}
 
-  /// Ends all watching, so that the server can go.
+  /// Ends all watching and live links, so that the server can go.
   void stop() { stopping_ = true; }
 
   grpc::Status Describe(grpc::ServerContext*, const v1::DescribeRequest*, v1::RigDescription*) override;
@@ -32,17 +36,22 @@ class RigService final : public v1::Rig::Service {
   grpc::Status Blackout(grpc::ServerContext*, const v1::BlackoutRequest*, v1::RigState*) override;
   grpc::Status GetState(grpc::ServerContext*, const v1::GetStateRequest*, v1::RigState*) override;
   grpc::Status Watch(grpc::ServerContext*, const v1::WatchRequest*, grpc::ServerWriter<v1::RigState>*) override;
+  grpc::Status Live(grpc::ServerContext*, grpc::ServerReaderWriter<v1::LiveReply, v1::LiveRequest>*) override;
 
  private:
   v1::RigState state() const;
+  RigTerms terms() const;
   template <class Step>
   grpc::Status held(const std::string& token, v1::RigState* reply, Step step);
 
   RigThreadSettings settings_;
   ShowStore& store_;
+  AssetStore& assets_;
+  LiveFrames& frames_;
   RigThread& rig_;
   LeaseDesk& desk_;
   std::atomic<bool> stopping_ = false;
+  std::atomic<bool> live_ = false;
 };
 
 }  // namespace focalstage

@@ -151,6 +151,12 @@ Status RigThread::activate(std::shared_ptr<const LoadedShow> show) {
   return Fault{"rig.refused", "show", "it did not take the place of the one that plays", "look at the rig's log"};
 }
 
+void RigThread::present(std::shared_ptr<const LoadedShow> show) {
+  const auto lock = take_turn();
+  player_.activate(std::move(show));
+  changed_.notify_all();
+}
+
 Status RigThread::command(Status (Player::*what)()) {
   const auto lock = take_turn();
   Status done = (player_.*what)();
@@ -187,6 +193,17 @@ void RigThread::blackout() {
   changed_.notify_all();
 }
 
+void RigThread::doubt(const Fault& fault) {
+  const auto lock = take_turn();
+  make_dark(fault);
+  changed_.notify_all();
+}
+
+std::shared_ptr<const LoadedShow> RigThread::show() const {
+  const auto lock = take_turn();
+  return player_.show();
+}
+
 RigState RigThread::state() const {
   const auto lock = take_turn();
   RigState state;
@@ -198,10 +215,16 @@ RigState RigThread::state() const {
     const double sweeps = (now_s() - next_start_s_) / player_.period_s();
     state.lens_phase = sweeps - std::floor(sweeps);
   }
+  // The simulated rig stands in a room and does not warm.
+  state.temperatures = {{"left lens", 25.0}, {"right lens", 25.0}, {"projector", 25.0}};
   state.temperature_c = 25.0;
   if (player_.fault()) state.fault = describe(*player_.fault());
   state.slots = ledger_.slots();
   state.frame = player_.frame();
+  if (player_.show() && player_.show()->revision > 0) {
+    state.revision = player_.show()->revision;
+    state.frame = player_.show()->header.first_frame;
+  }
   state.late_sweeps = late_sweeps_;
   state.lateness = lateness_.bins();
   return state;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "devices/player/player.h"
+#include "devices/player/priority_mutex.h"
 #include "devices/runtime/lateness.h"
 #include "devices/runtime/slot_ledger.h"
 #include "devices/sim/sim_rig.h"
@@ -40,13 +41,21 @@ class RigThread {
 
   /// Returns once the show has taken the place of the one before: "rig.refused" if its first frame can't be had.
   Status activate(std::shared_ptr<const LoadedShow> show);
+
+  /// The same without waiting, for a show whose frames are there: one that comes before it was shown takes its place.
+  void present(std::shared_ptr<const LoadedShow> show);
+
   Status play(std::uint64_t sweeps);
   Status hold();
   Status cue(const std::string& name);
   Status go();
   void blackout();
 
+  /// Latched darkness, for what others came to doubt.
+  void doubt(const Fault& fault);
+
   RigState state() const;
+  std::shared_ptr<const LoadedShow> show() const;
 
  private:
   /// The lock, for a caller from outside: in virtual time the rig's own thread would hardly ever let go of it.

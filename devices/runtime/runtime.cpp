@@ -13,10 +13,17 @@
 namespace focalstage {
 
 struct Runtime::State {
-  State(const RuntimeOptions& options, std::unique_ptr<ShowStore> shows)
-      : store(std::move(shows)), desk(options.lease), rig(options.rig), service(options.rig, *store, rig, desk) {}
+  State(const RuntimeOptions& options, std::unique_ptr<ShowStore> shows, std::unique_ptr<AssetStore> blobs)
+      : store(std::move(shows)),
+        assets(std::move(blobs)),
+        frames(options.store),
+        desk(options.lease),
+        rig(options.rig),
+        service(options.rig, *store, *assets, frames, rig, desk) {}
 
-  std::unique_ptr<ShowStore> store;
+  std::unique_ptr<ShowStore> store;  // holds the folder's lock
+  std::unique_ptr<AssetStore> assets;
+  LiveFrames frames;
   LeaseDesk desk;
   RigThread rig;
   RigService service;
@@ -62,7 +69,9 @@ Result<Runtime> Runtime::start(const RuntimeOptions& options) {
   if (!address) return address.fault();
   Result<std::unique_ptr<ShowStore>> store = ShowStore::open(options.store);
   if (!store) return store.fault();
-  auto state = std::make_unique<State>(options, std::move(*store));
+  Result<std::unique_ptr<AssetStore>> assets = AssetStore::open(options.store);
+  if (!assets) return assets.fault();
+  auto state = std::make_unique<State>(options, std::move(*store), std::move(*assets));
   int port = 0;
   state->server = build_server(*address, state->service, port);
   if (!state->server || port == 0) {

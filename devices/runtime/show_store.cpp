@@ -10,6 +10,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include "devices/runtime/asset_store.h"
 #include "devices/runtime/disk_file.h"
 #include "io/files/files.h"
 #include "io/protocol/limits.h"
@@ -30,12 +31,6 @@ std::string chunk_name(std::uint64_t chunk, std::uint64_t count) {
 
 std::uint64_t chunk_length(std::uint64_t chunk, std::uint64_t size_bytes) {
   return std::min<std::uint64_t>(push_chunk_bytes, size_bytes - chunk * push_chunk_bytes);
-}
-
-/// Fit to name a file.
-bool is_sha256_hex(const std::string& text) {
-  return text.size() == 64 &&
-         std::ranges::all_of(text, [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
 }
 
 }  // namespace

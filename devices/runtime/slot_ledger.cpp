@@ -15,6 +15,7 @@ void SlotLedger::deliver(std::vector<DeliveredExposure> exposures) {
 
 void SlotLedger::begin_show(const std::shared_ptr<const LoadedShow>& show) {
   show_ = show;
+  seen_whole_ = false;
   slots_.clear();
   for (const Slot& slot : show->header.schedule.slots) {
     SlotReport report;
@@ -78,6 +79,9 @@ void SlotLedger::settle(const AskedSweep& sweep) {
   for (std::size_t slot = 0; slot < slots_.size(); ++slot) missed += settle(sweep, slot) ? 0 : 1;
   missed_ += missed;
   if (missed > 0) ++faulty_;
+  if (missed == 0 && !std::exchange(seen_whole_, true) && show_->on_light) {
+    show_->on_light(sweep.number, sweep.start_s);
+  }
 }
 
 void SlotLedger::settle_until(double time_s) {

@@ -46,6 +46,7 @@ class SlotLedger {
 
   DeliveryTolerance tolerance_;
   std::shared_ptr<const LoadedShow> show_;
+  bool seen_whole_ = false;  ///< a sweep of it whose light all came
   std::deque<AskedSweep> asked_;
   std::deque<DeliveredExposure> delivered_;
   std::vector<SlotReport> slots_;

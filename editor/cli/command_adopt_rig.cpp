@@ -1,12 +1,12 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
-#include "editor/cli/adopt.h"
 #include "editor/cli/command_list.h"
 #include "editor/cli/edit_file.h"
 #include "editor/cli/output.h"
 #include "editor/cli/rig_link.h"
 #include "io/json/json.h"
+#include "io/protocol/adopt.h"
 
 namespace focalstage {
 namespace {

@@ -2,10 +2,10 @@
 #include <memory>
 
 #include "editor/cli/command_list.h"
-#include "editor/cli/compile_show.h"
 #include "editor/cli/output.h"
 #include "editor/cli/progress.h"
-#include "editor/cli/source.h"
+#include "editor/pipeline/compile_show.h"
+#include "editor/pipeline/source.h"
 
 namespace focalstage {
 namespace {

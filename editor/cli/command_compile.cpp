@@ -3,10 +3,10 @@
 #include <memory>
 
 #include "editor/cli/command_list.h"
-#include "editor/cli/compile_show.h"
 #include "editor/cli/interrupt.h"
 #include "editor/cli/output.h"
 #include "editor/cli/progress.h"
+#include "editor/pipeline/compile_show.h"
 
 namespace focalstage {
 namespace {

@@ -10,6 +10,7 @@ std::span<const Command> commands() {
       Command{"check", "find what is wrong with a project or a show", declare_check},
       Command{"compile", "compile a project into a show", declare_compile},
       Command{"export", "write a show as PNG, CSV and VCD for other tools", declare_export},
+      Command{"retina", "show what an eye sees of a show", declare_retina},
       Command{"push", "send a show to a rig", declare_push},
       Command{"rig", "ask a rig for its state, or play, hold, black out", declare_rig},
       Command{"import", "say what a mesh or glTF file holds", declare_import},

@@ -9,6 +9,7 @@ Command::Run declare_new(CLI::App& app);
 Command::Run declare_check(CLI::App& app);
 Command::Run declare_compile(CLI::App& app);
 Command::Run declare_export(CLI::App& app);
+Command::Run declare_retina(CLI::App& app);
 Command::Run declare_push(CLI::App& app);
 Command::Run declare_rig(CLI::App& app);
 Command::Run declare_import(CLI::App& app);

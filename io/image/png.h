@@ -21,6 +21,11 @@ Result<std::vector<std::byte>> encode_png(int width_px, int height_px, int chann
 Status write_png(const std::filesystem::path& path, int width_px, int height_px, int channels,
                  std::span<const std::uint8_t> codes);
 
+/// Writes 16-bit gray or RGB rows of linear light from the top, atomically; says in the file that it is linear, so that
+/// viewers show it right.
+Status write_png16(const std::filesystem::path& path, int width_px, int height_px, int channels,
+                   std::span<const std::uint16_t> light);
+
 /// PNG or JPEG bytes as 8-bit RGBA; at most 16384 pixels a side and 2^26 in all. The numbers of the file: gamma, colour
 /// profile and orientation tags are ignored, as glTF demands. `source` names it in faults ("image.invalid",
 /// "image.too-large", "image.unsupported").

@@ -16,8 +16,13 @@ namespace focalstage {
 /// Where a runtime listens unless told otherwise.
 inline constexpr const char* default_rig_address = "127.0.0.1:50371";
 
-/// A connection to a runtime. Every call has a deadline. Takes the rig for itself with the first call that changes
-/// something, and lets go at the end.
+class RigConnection;
+
+/// A connection to a runtime. Every call has a deadline and may come from any thread: blackout goes through while a
+/// push is under way. Takes the rig for itself with the first call that changes something, and lets go at the end.
+///
+/// A runtime that goes away is told by every call, and by `watch` within a second of its own interval
+/// ("rig.unreachable"). Nothing has to be built anew for it: when the runtime is back, the next call reaches it.
 ///
 /// Faults: "rig.unreachable" (nobody answers in time), "rig.refused" (not in this state, not this show), "rig.differs"
 /// (the show is made for another rig), "rig.held" (another editor holds it), "rig.damaged" (names the chunk),
@@ -29,6 +34,10 @@ class RigClient {
   RigClient(RigClient&&) noexcept;
   RigClient& operator=(RigClient&&) noexcept;
   ~RigClient();
+
+  /// Whether the runtime is there, as far as is known without asking it. Never waits; where it is away, it is looked
+  /// for from now on.
+  bool reachable() const;
 
   /// The lens response at the harmonics of a sweep of `frequency_hz`.
   Result<RigDescription> describe(double frequency_hz = 60.0);
@@ -45,13 +54,17 @@ class RigClient {
   Status cue(const std::string& name);
   Result<RigState> state();
 
-  /// Calls `seen` with the state every `interval` until it returns false or the rig goes away.
-  Status watch(std::chrono::milliseconds interval, const std::function<bool(const RigState&)>& seen);
+  /// Calls `seen` with the state every `interval` until it returns false, `stop` is requested or the rig goes away.
+  /// `seen` must not wait.
+  Status watch(std::chrono::milliseconds interval, const std::function<bool(const RigState&)>& seen,
+               std::stop_token stop = {});
+
+  /// What a live link shares with this client: the channel and the lease.
+  const std::shared_ptr<RigConnection>& connection() const { return connection_; }
 
  private:
-  struct State;
-  explicit RigClient(std::unique_ptr<State> state);
-  std::unique_ptr<State> state_;
+  explicit RigClient(std::shared_ptr<RigConnection> connection);
+  std::shared_ptr<RigConnection> connection_;
 };
 
 }  // namespace focalstage

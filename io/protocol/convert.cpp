@@ -4,6 +4,8 @@
 #include <string_view>
 #include <utility>
 
+#include "io/json/utf8.h"
+
 namespace focalstage {
 
 namespace {
@@ -168,7 +170,7 @@ v1::RigState message_from(const RigState& state) {
   message.set_missed_exposures(state.missed_exposures);
   message.set_lens_phase(state.lens_phase);
   message.set_temperature_c(state.temperature_c);
-  message.set_fault(state.fault);
+  message.set_fault(valid_utf8(state.fault));
   for (const SlotReport& slot : state.slots) *message.add_slots() = message_from(slot);
   message.set_holder(state.holder);
   message.set_frame(state.frame);
@@ -177,6 +179,12 @@ v1::RigState message_from(const RigState& state) {
     v1::LatenessBin* out = message.add_lateness();
     out->set_up_to_us(bin.up_to_us);
     out->set_sweeps(bin.sweeps);
+  }
+  message.set_revision(state.revision);
+  for (const Temperature& temperature : state.temperatures) {
+    v1::Temperature* out = message.add_temperatures();
+    out->set_part(temperature.part);
+    out->set_celsius(temperature.celsius);
   }
   return message;
 }
@@ -195,22 +203,34 @@ RigState state_from(const v1::RigState& message) {
   state.frame = message.frame();
   state.late_sweeps = message.late_sweeps();
   for (const v1::LatenessBin& bin : message.lateness()) state.lateness.push_back({bin.up_to_us(), bin.sweeps()});
+  state.revision = message.revision();
+  for (const v1::Temperature& part : message.temperatures())
+    state.temperatures.push_back({part.part(), part.celsius()});
   return state;
 }
 
+v1::Fault message_from(const Fault& fault) {
+  // Faults quote what they found in files; a message that is no UTF-8 would never be read at the other end.
+  v1::Fault message;
+  message.set_code(valid_utf8(fault.code));
+  message.set_where(valid_utf8(fault.where));
+  message.set_message(valid_utf8(fault.message));
+  message.set_remedy(valid_utf8(fault.remedy));
+  return message;
+}
+
+Fault fault_from(const v1::Fault& message) {
+  return {message.code(), message.where(), message.message(), message.remedy()};
+}
+
 grpc::Status status_from(const Fault& fault) {
-  v1::Fault details;
-  details.set_code(fault.code);
-  details.set_where(fault.where);
-  details.set_message(fault.message);
-  details.set_remedy(fault.remedy);
-  return {status_code(fault.code), describe(fault), details.SerializeAsString()};
+  return {status_code(fault.code), describe(fault), message_from(fault).SerializeAsString()};
 }
 
 Fault fault_from(const grpc::Status& status, const std::string& address) {
   v1::Fault details;
   if (!status.error_details().empty() && details.ParseFromString(status.error_details()) && !details.code().empty()) {
-    return {details.code(), details.where(), details.message(), details.remedy()};
+    return fault_from(details);
   }
   switch (status.error_code()) {
     case grpc::StatusCode::UNAVAILABLE:

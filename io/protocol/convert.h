@@ -14,6 +14,9 @@ RigDescription description_from(const v1::RigDescription& message);
 v1::RigState message_from(const RigState& state);
 RigState state_from(const v1::RigState& message);
 
+v1::Fault message_from(const Fault& fault);
+Fault fault_from(const v1::Fault& message);
+
 /// The fault as a status of the call, and back. A status that carries no fault of ours (the connection broke, the
 /// deadline passed) becomes "rig.unreachable".
 grpc::Status status_from(const Fault& fault);

@@ -48,19 +48,28 @@ struct LatenessBin {
   bool operator==(const LatenessBin&) const = default;
 };
 
+struct Temperature {
+  std::string part;
+  double celsius = 0.0;
+
+  bool operator==(const Temperature&) const = default;
+};
+
 struct RigState {
-  std::string state;  ///< "empty", "ready", "playing", "holding", "dark"
-  std::string show_sha256;
+  std::string state;        ///< "empty", "ready", "playing", "holding", "dark"
+  std::string show_sha256;  ///< empty where a live revision is there instead
   std::uint64_t sweeps = 0;
   std::uint64_t missed_exposures = 0;
   double lens_phase = 0.0;
-  double temperature_c = 0.0;
-  std::string fault;  ///< latched; empty when none
+  double temperature_c = 0.0;  ///< of the warmest part
+  std::string fault;           ///< latched; empty when none
   std::vector<SlotReport> slots;
   std::string holder;  ///< who holds the rig; empty when nobody
-  int frame = 0;       ///< of the show
+  int frame = 0;       ///< of the show; of the project where a live revision is there
   std::uint64_t late_sweeps = 0;
   std::vector<LatenessBin> lateness;
+  std::uint64_t revision = 0;  ///< of the live link whose frame this is; 0: a show that was pushed
+  std::vector<Temperature> temperatures;
 
   bool operator==(const RigState&) const = default;
 };

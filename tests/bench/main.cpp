@@ -9,12 +9,14 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/compile/compile.h"
 #include "tests/bench/gl_context.h"
 #include "tests/bench/long_show.h"
 #include "tests/bench/rays.h"
+#include "tests/bench/retina_view.h"
 #include "tests/bench/scenes.h"
 #include "tests/bench/two_pass.h"
 
@@ -155,11 +157,27 @@ Status run_long_show(int frames) {
   return {};
 }
 
+Status run_retina(int rounds, const std::string& only) {
+  std::printf("one eye, 6 slices and a light image of 1024 x 768, one thread, medians of %d rounds, ms\n", rounds);
+  std::printf("  %-10s %10s %14s %12s %12s\n", "", "size", "first picture", "head moved", "focus moved");
+  for (const BenchScene& scene : bench_scenes()) {
+    if (!only.empty() && scene.name != only) continue;
+    for (const auto& [width_px, height_px] : {std::pair(400, 300), std::pair(512, 512)}) {
+      const Result<RetinaTimes> times = time_retina(scene, width_px, height_px, rounds);
+      if (!times) return times.fault();
+      std::printf("  %-10s %4d x %3d %14.1f %12.1f %12.1f\n", scene.name.c_str(), width_px, height_px, times->first_ms,
+                  times->head_ms, times->focus_ms);
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   int rounds = 9;
   int show_frames = 0;
+  bool retina = false;
   std::string only;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--rounds") == 0 && i + 1 < argc) {
@@ -168,14 +186,18 @@ int main(int argc, char** argv) {
       only = argv[++i];
     } else if (std::strcmp(argv[i], "--show") == 0 && i + 1 < argc) {
       show_frames = std::max(1, std::atoi(argv[++i]));
+    } else if (std::strcmp(argv[i], "--retina") == 0) {
+      retina = true;
     } else {
       std::fprintf(stderr,
-                   "usage: focalstage-bench [--rounds N] [--scene bunnies|teapot|plane|bumpy]\n"
+                   "usage: focalstage-bench [--retina] [--rounds N] [--scene bunnies|teapot|plane|bumpy]\n"
                    "       focalstage-bench --show FRAMES\n");
       return 2;
     }
   }
-  const Status done = show_frames > 0 ? run_long_show(show_frames) : run(rounds, only);
+  const Status done = show_frames > 0 ? run_long_show(show_frames)
+                      : retina        ? run_retina(rounds, only)
+                                      : run(rounds, only);
   if (done) return 0;
   std::fprintf(stderr, "%s\n", describe(done.fault()).c_str());
   return 4;

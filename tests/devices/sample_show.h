@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "devices/player/frame_cache.h"
 #include "devices/player/player.h"
 
 namespace focalstage::sample {

@@ -37,6 +37,10 @@ LIBRARY_OF = [
     (r"^glm/", "glm::glm"),
     (r"^(grpc|grpcpp|grpc\+\+)/", "gRPC::grpc++"),
     (r"^google/protobuf/", "protobuf::libprotobuf"),
+    (r"^imgui|^backends/imgui", "imgui::imgui"),
+    (r"^vtk", "vtk::vtk"),
+    (r"^GLFW/", "glfw::glfw"),
+    (r"^epoxy/", "epoxy::epoxy"),
 ]
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)

@@ -3,9 +3,12 @@
 
 import csv
 import pathlib
+import struct
 import time
+import zlib
 
-from harness import DONE, FOCALSTAGE, USAGE, expect, focalstage, folder, main, rig, small_project, succeed, write_project
+from harness import (DONE, ENVIRONMENT, FOCALSTAGE, PROJECTS, USAGE, expect, focalstage, folder, main, rig,
+                     small_project, succeed, write_project)
 
 
 def test_new_to_report():
@@ -47,6 +50,58 @@ def test_new_to_report():
             assert text.startswith("dark"), text
 
 
+def png16(path):
+    """Rows of a 16-bit gray PNG without filters but the one that ours has."""
+    data, at, packed = path.read_bytes(), 8, b""
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        body = data[at + 8:at + 8 + length]
+        if kind == b"IHDR":
+            width, height, bits, colour = struct.unpack(">IIBB", body[:10])
+            assert (bits, colour) == (16, 0), (bits, colour)
+        if kind == b"IDAT":
+            packed += body
+        at += 12 + length
+    raw, rows = zlib.decompress(packed), []
+    for y in range(height):
+        line = bytearray(raw[y * (2 * width + 1):(y + 1) * (2 * width + 1)])
+        assert line[0] == 1, "the sub filter"
+        for i in range(3, len(line)):
+            line[i] = (line[i] + line[i - 2]) & 255
+        rows.append(struct.unpack(f">{width}H", bytes(line[1:])))
+    return rows
+
+
+def contrast(rows, left, right, top, bottom):
+    """Squares of the differences between neighbours: what a blur takes away."""
+    return sum((rows[y][x + 1] - rows[y][x]) ** 2 for y in range(top, bottom) for x in range(left, right))
+
+
+def test_what_an_eye_sees():
+    """Each of the three rabbits is sharpest where it is meant to be, and the light stays."""
+    with folder() as at:
+        succeed("compile", PROJECTS / "three-rabbits", "-o", at / "rabbits.h5")
+        seen, light = {}, set()
+        for focus in ("0.333", "0.5", "1"):
+            told = succeed("retina", at / "rabbits.h5", "--eye", "left", "--focus-m", focus, "--pupil-mm", "6", "--size",
+                           "320x240", "-o", at / "eye.png", "--json").json()
+            assert told["size_px"] == [320, 240] and told["exposures"] == 3, told
+            assert abs(told["focus_d"] - 1 / float(focus)) < 1e-9, told
+            light.add(round(told["mean_light"], 4))
+            seen[focus] = png16(at / "eye.png")
+        assert len(light) == 1, light
+        # The rabbits stand below each other: the one at 0.333 m lowest, the one at 1 m highest.
+        for focus, rows in (("1", (30, 86)), ("0.5", (89, 151)), ("0.333", (154, 220))):
+            sharp = {other: contrast(picture, 165, 240, *rows) for other, picture in seen.items()}
+            assert max(sharp, key=sharp.get) == focus, (focus, sharp)
+        text = succeed("retina", at / "rabbits.h5", "--eye", "right", "--focus-m", "0.5", "-o", at / "right.png").out
+        assert "right eye" in text and "3 exposures" in text, text
+        expect(focalstage("retina", at / "rabbits.h5", "--eye", "left", "--focus-m", "1", "--frame", "1", "-o", at / "x.png"),
+               USAGE, "frame")
+        expect(focalstage("retina", at / "rabbits.h5", "--eye", "left", "--focus-m", "1", "-o", at / "no/such/x.png"),
+               ENVIRONMENT, "x.png")
+
+
 def test_every_sample_is_taken_by_the_rig():
     """No sample is refused with rig.differs, and what plays is all delivered."""
     with folder() as at, rig(at) as address:
@@ -80,7 +135,7 @@ def test_adopted_rig_is_taken():
 def test_help_of_every_command():
     text = succeed("--help").out
     commands = [line.split()[0] for line in text.split("Commands:\n")[1].split("\n\n")[0].splitlines()]
-    assert len(commands) == 12, commands
+    assert len(commands) == 13, commands
     for name in commands:
         if name not in ("runtime", "edit", "bench"):
             assert "Usage: focalstage " + name in succeed(name, "--help").out
@@ -89,4 +144,5 @@ def test_help_of_every_command():
 
 
 if __name__ == "__main__":
-    main([test_new_to_report, test_every_sample_is_taken_by_the_rig, test_adopted_rig_is_taken, test_help_of_every_command])
+    main([test_new_to_report, test_what_an_eye_sees, test_every_sample_is_taken_by_the_rig, test_adopted_rig_is_taken,
+          test_help_of_every_command])

@@ -14,8 +14,10 @@ Project start() {
   return project;
 }
 
-Edit pupils(double mm) { return {Edit::Kind::set, "viewer", "", "interpupillary_mm", Value(mm)}; }
-Edit aperture(double mm) { return {Edit::Kind::set, "glasses", "", "lens_aperture_mm", Value(mm)}; }
+Edit pupils_edit(double mm) { return {Edit::Kind::set, "viewer", "", "interpupillary_mm", Value(mm)}; }
+Edit aperture_edit(double mm) { return {Edit::Kind::set, "glasses", "", "lens_aperture_mm", Value(mm)}; }
+Step pupils(double mm) { return {"Set pupils", {pupils_edit(mm)}}; }
+Step aperture(double mm) { return {"Set aperture", {aperture_edit(mm)}}; }
 
 double pupils_of(const History& history) { return history.now()->viewer.interpupillary_mm; }
 
@@ -52,7 +54,7 @@ TEST_CASE("an edit after undo forgets what was undone, also its snapshots") {
   for (int i = 1; i <= 40; ++i) REQUIRE(history.apply(pupils(i)).ok());
   history.jump(10);
   for (int i = 1; i <= 30; ++i) REQUIRE(history.apply(pupils(100 + i)).ok());
-  CHECK(history.edits().size() == 40);
+  CHECK(history.steps().size() == 40);
   CHECK_FALSE(history.can_redo());
   for (std::size_t place = 40; place > 10; --place) {
     history.jump(place);
@@ -80,14 +82,14 @@ TEST_CASE("a drag is one step of undo, but only on the same key and at the end")
   REQUIRE(history.apply(pupils(60)).ok());
   REQUIRE(history.apply(pupils(61), Joining::continues_last).ok());
   REQUIRE(history.apply(pupils(62), Joining::continues_last).ok());
-  CHECK(history.edits() == std::vector<Edit>{pupils(62)});
+  CHECK(history.steps() == std::vector<Step>{pupils(62)});
   REQUIRE(history.apply(aperture(20), Joining::continues_last).ok());
-  CHECK(history.edits().size() == 2);
+  CHECK(history.steps().size() == 2);
   history.undo();
   CHECK(pupils_of(history) == 62);
   // A step undone and gone on from elsewhere is no drag.
   REQUIRE(history.apply(pupils(63), Joining::continues_last).ok());
-  CHECK(history.edits() == std::vector<Edit>{pupils(62), pupils(63)});
+  CHECK(history.steps() == std::vector<Step>{pupils(62), pupils(63)});
   history.undo();
   history.undo();
   CHECK(*history.now() == start());
@@ -119,4 +121,19 @@ TEST_CASE("revisions grow with every change, and snapshots stay what they were")
   history.redo();
   CHECK(grew());
   CHECK(*first == start());
+}
+
+TEST_CASE("a step of several edits is undone as one, and applied whole or not at all") {
+  History history(start());
+  REQUIRE(history.apply({"Fit", {pupils_edit(60), aperture_edit(20)}}).ok());
+  CHECK(history.place() == 1);
+  CHECK(history.now()->glasses.lens_aperture_mm == 20);
+  CHECK_FALSE(history.apply({"Fit", {pupils_edit(61), aperture_edit(-1)}}).ok());
+  CHECK(pupils_of(history) == 60);
+  REQUIRE(history.apply({"Fit", {pupils_edit(62), aperture_edit(21)}}, Joining::continues_last).ok());
+  CHECK(history.place() == 1);
+  REQUIRE(history.apply({"Fit", {pupils_edit(63)}}, Joining::continues_last).ok());  // other keys: a step of its own
+  CHECK(history.place() == 2);
+  history.jump(0);
+  CHECK(*history.now() == start());
 }

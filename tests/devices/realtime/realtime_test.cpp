@@ -20,7 +20,7 @@ TEST_CASE("five seconds in real time: every image shown is the right one, in its
   REQUIRE(sample::write_show(path, project));
   RigThreadSettings settings;
   const auto rig_at = [&](double hz) { return describe_sim(settings.sim, settings.limits, hz); };
-  const auto show = load_show(path, std::string(64, 'a'), rig_at, settings.limits);
+  const auto show = load_show(path, std::string(64, 'a'), {rig_at, settings.limits});
   REQUIRE(show);
   RigThread rig(settings);
   REQUIRE(rig.activate(*show));

@@ -13,7 +13,7 @@ Result<std::shared_ptr<const LoadedShow>> load(const Project& project, const Rig
   const sample::Folder folder;
   const auto path = folder.path() / "show.h5";
   REQUIRE(sample::write_show(path, project));
-  return load_show(path, std::string(64, 'a'), rig_at, limits);
+  return load_show(path, std::string(64, 'a'), {rig_at, limits});
 }
 
 bool names(const Fault& fault, const std::string& word) { return fault.message.find(word) != std::string::npos; }
@@ -112,7 +112,7 @@ TEST_CASE("a show beyond the rig's own limits is refused, whatever the show says
 
 TEST_CASE("what is no show, or not there, is a fault") {
   const sample::Folder folder;
-  CHECK_FALSE(load_show(folder.path() / "none.h5", "a", rig_at, {}));
+  CHECK_FALSE(load_show(folder.path() / "none.h5", "a", {rig_at, {}}));
 }
 
 }  // namespace

@@ -151,6 +151,27 @@ TEST_CASE("a picture is written to a file, or the fault names it") {
   CHECK_FALSE(std::filesystem::exists(path));
 }
 
+TEST_CASE("light is written in 16 bits that say they are linear") {
+  const auto path = std::filesystem::path(FOCALSTAGE_BINARY_DIR) / "light_test.png";
+  for (const int channels : {1, 3}) {
+    std::vector<std::uint16_t> light;
+    for (int i = 0; i < 4 * channels; ++i) light.push_back(static_cast<std::uint16_t>(257 * (i * 17)));
+    REQUIRE(write_png16(path, 2, 2, channels, light).ok());
+    const Bytes bytes = *read_file(path, 10000);
+    CHECK(static_cast<int>(bytes[24]) == 16);  // the header's depth
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::size_t gamma = text.find("gAMA");
+    REQUIRE(gamma != std::string::npos);
+    CHECK(text.substr(gamma + 4, 4) == std::string("\x00\x01\x86\xA0", 4));  // 100000: one
+    const Texture read = decoded(bytes);
+    const int last = 17 * (4 * channels - 1);
+    CHECK(pixel(read, 1, 1) == (channels == 1 ? Rgba{last, last, last, 255} : Rgba{last - 34, last - 17, last, 255}));
+    light.pop_back();
+    CHECK(write_png16(path, 2, 2, channels, light).fault().code == "image.invalid");
+  }
+  std::filesystem::remove(path);
+}
+
 TEST_CASE("every kind of PNG comes as 8-bit RGBA, its gamma untouched") {
   for (const int interlace : {PNG_INTERLACE_NONE, PNG_INTERLACE_ADAM7}) {
     const Texture palette = decoded(png_of(3, {{0, 1, 2}, {2, 2, 0}}, {8, PNG_COLOR_TYPE_PALETTE, interlace}));

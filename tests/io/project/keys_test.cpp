@@ -300,7 +300,7 @@ TEST_CASE("every key: an edit changes it and nothing else, undo brings it back, 
     const Value before_value = value_from(before);
     const std::string pointer = pointer_of(before_value, row);
     History history(before);
-    const Status done = history.apply(edit_of(row));
+    const Status done = history.apply({"edit", {edit_of(row)}});
     REQUIRE_MESSAGE(done.ok(), describe(done.ok() ? Fault{} : done.fault()));
 
     const Value after_value = value_from(*history.now());

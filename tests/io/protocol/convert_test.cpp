@@ -49,6 +49,8 @@ RigState state() {
   state.holder = "anna:1";
   state.frame = 12;
   state.late_sweeps = 4;
+  state.revision = 1ull << 53;
+  state.temperatures = {{"left lens", 31.5}, {"projector", 44.0}};
   state.lateness = {{50.0, 10}, {std::numeric_limits<double>::infinity(), 2}};
   return state;
 }
@@ -99,6 +101,17 @@ TEST_CASE("a fault crosses the wire whole; a broken connection becomes rig.unrea
   CHECK(fault_from({grpc::StatusCode::DEADLINE_EXCEEDED, ""}, "").code == "rig.unreachable");
   CHECK(fault_from({grpc::StatusCode::UNIMPLEMENTED, "no such call"}, "").message == "no such call");
   CHECK(fault_from({grpc::StatusCode::INTERNAL, "odd", "\xff\xff not a fault"}, "").message == "odd");
+}
+
+TEST_CASE("a fault that quotes bytes which are no text still arrives") {
+  const Fault quoted{"asset.invalid", "mesh.obj", "\"\xff\xfe\" is no number", "mend it"};
+  const Fault readable{"asset.invalid", "mesh.obj", "\"\xef\xbf\xbd\xef\xbf\xbd\" is no number", "mend it"};
+  CHECK(fault_from(status_from(quoted), "") == readable);
+  RigState state;
+  state.fault = quoted.message;
+  v1::RigState read;
+  REQUIRE(read.ParseFromString(message_from(state).SerializeAsString()));
+  CHECK(read.fault() == readable.message);
 }
 
 }  // namespace

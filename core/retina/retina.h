@@ -1,0 +1,100 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/base/result.h"
+#include "core/base/sides.h"
+#include "core/optics/projector_model.h"
+#include "core/stage/stage.h"
+
+namespace focalstage {
+
+// What one eye sees of a show: the exposures of one period, each through its own lens power, added in linear light.
+//
+// The layered, geometric answer, fast enough to follow a hand: directions are those of the thin lens (design section
+// 5), an exposure has the one power of its middle, shutters are ideal, defocus is the pupil's disc, diffraction and
+// colour are left out.
+
+/// One exposure that reaches the eye.
+struct RetinaSlice {
+  std::span<const std::uint8_t> codes;  ///< [height][width][channels] of the projector's image
+  double power_d = 0.0;                 ///< of the lens meanwhile
+};
+
+/// The rig and what it shows this eye: its own slices and the light image, as long as each other.
+struct RetinaInput {
+  const Stage* stage = nullptr;  ///< surfaces and viewer; virtual objects do not matter
+  ProjectorModel projector;
+  int channels = 1;  ///< 1 gray, 3 rgb
+  int bits = 8;
+  double gamma = 1.0;
+  double lens_to_pupil_m = 0.015;
+  double lens_aperture_m = 0.016;  ///< diameter; a direction that misses it is dark
+  std::vector<RetinaSlice> slices;
+};
+
+/// How the eye looks: a picture of square pixels in its tangent plane.
+struct RetinaView {
+  Side eye = Side::left;
+  double focus_d = 2.0;    ///< accommodation, as the vergence from the lens centre of what is sharp (design's 1/d_v)
+  double pupil_m = 0.004;  ///< diameter
+  int width_px = 400;
+  int height_px = 300;
+  double fov_deg = 50.0;          ///< horizontal
+  glm::dvec2 gaze{0.0};           ///< the look at the picture's centre
+  glm::dvec3 head_offset_m{0.0};  ///< the head moved, in the viewer's axes, under images made for where it was
+
+  bool operator==(const RetinaView&) const = default;
+};
+
+/// The look through a place of the picture; pixel i covers [i, i + 1), the origin is the top left corner.
+glm::dvec2 look_of_pixel(const RetinaView& view, const glm::dvec2& pixel);
+glm::dvec2 pixel_of_look(const RetinaView& view, const glm::dvec2& look);
+
+/// Linear light, 1 = full code of one exposure; rows from the top, three values per pixel.
+struct RetinaImage {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<float> rgb;
+};
+
+/// What is seen along a look.
+struct RetinaSight {
+  glm::dvec3 world_m{0.0};  ///< the spot of the surface that carries most of its light
+  double surface_m = 0.0;   ///< how far that lies from the lens centre, along the gaze
+  double vergence_d =
+      0.0;           ///< where its picture lies (1/d_v), as a mean of the exposures by luminance: the focus it asks
+  bool lit = false;  ///< no light: vergence and spot are the bare surface's, seen through no power
+};
+
+/// Keeps between calls what did not change: where the looks of each slice meet surfaces that stand still, and which
+/// pixel of the projector lights those spots. Focus, pupil and images can change at the cost of sampling and blurring.
+class Retina {
+ public:
+  explicit Retina(int threads = 0);  ///< 0: all
+  ~Retina();
+  Retina(Retina&&) noexcept;
+  Retina& operator=(Retina&&) noexcept;
+
+  /// Faults: "retina.input" (sizes that don't fit, numbers that mean nothing), "retina.cancelled" within milliseconds
+  /// of a stop request.
+  Result<RetinaImage> view(const RetinaInput& input, const RetinaView& view, std::stop_token stop = {});
+
+  /// What is seen along `look`: for "focus here". None outside the picture, or where no surface is seen.
+  Result<std::optional<RetinaSight>> look_at(const RetinaInput& input, const RetinaView& view, const glm::dvec2& look,
+                                             std::stop_token stop = {});
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace focalstage

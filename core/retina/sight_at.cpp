@@ -1,0 +1,80 @@
+#include "core/retina/sight_at.h"
+
+#include <algorithm>
+
+#include "core/retina/slice_eye.h"
+
+namespace focalstage {
+namespace {
+
+constexpr int widest = 4;  ///< pixels to each side
+
+struct Pixel {
+  int column, row;
+};
+
+const SliceSpot& spot_in(const SliceMap& map, Pixel pixel) {
+  return map.spots[static_cast<std::size_t>(pixel.row) * static_cast<std::size_t>(map.grid.width_px) +
+                   static_cast<std::size_t>(pixel.column)];
+}
+
+/// The spot of the surface that is seen in a pixel, and its place in the world.
+RetinaSight sight_of(const SliceMap& map, Pixel pixel, const Eye& eye) {
+  const double vergence_d = vergence_at_lens_d(spot_in(map, pixel).vergence_d, eye.lens_to_pupil_m);
+  const double surface_m = 1.0 / (vergence_d + map.power_d);
+  const double narrowing = 1.0 - map.power_d * eye.lens_to_pupil_m;
+  const glm::dvec2 aside = map.grid.look(pixel.column, pixel.row) * (eye.lens_to_pupil_m + surface_m * narrowing);
+  RetinaSight sight;
+  sight.world_m = eye.eye_from_world.inverse().point({aside, -(eye.lens_to_pupil_m + surface_m)});
+  sight.surface_m = surface_m;
+  sight.vergence_d = vergence_d;
+  return sight;
+}
+
+double luminance_of(const SliceLight& light, const SliceSpot& spot) {
+  if (light.channels == 1) return LightSampler<1>(light).at(spot.x_px, spot.y_px)[0];
+  const std::array<float, 3> rgb = LightSampler<3>(light).at(spot.x_px, spot.y_px);
+  return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
+
+/// What several exposures and pixels show together.
+struct Mean {
+  double luminance = 0.0;
+  double vergence_d = 0.0;  ///< times luminance
+  double most = 0.0;
+  RetinaSight brightest;
+
+  void add(const SliceMap& map, const SliceLight& light, Pixel pixel, const Eye& eye) {
+    const SliceSpot& spot = spot_in(map, pixel);
+    if (!light.any || !spot.lit()) return;
+    const double own = luminance_of(light, spot);
+    luminance += own;
+    vergence_d += own * vergence_at_lens_d(spot.vergence_d, eye.lens_to_pupil_m);
+    if (own <= most) return;
+    most = own;
+    brightest = sight_of(map, pixel, eye);
+  }
+};
+
+}  // namespace
+
+std::optional<RetinaSight> sight_at(const std::vector<const SliceMap*>& maps, const std::vector<SliceLight>& lights,
+                                    const Eye& eye, int column, int row) {
+  const LookGrid& grid = maps.back()->grid;
+  for (int side = 0; side <= widest; ++side) {
+    Mean mean;
+    for (int y = std::max(0, row - side); y <= std::min(grid.height_px - 1, row + side); ++y) {
+      for (int x = std::max(0, column - side); x <= std::min(grid.width_px - 1, column + side); ++x) {
+        for (std::size_t i = 0; i < lights.size(); ++i) mean.add(*maps[i], lights[i], {x, y}, eye);
+      }
+    }
+    if (!(mean.luminance > 0.0)) continue;
+    mean.brightest.vergence_d = mean.vergence_d / mean.luminance;
+    mean.brightest.lit = true;
+    return mean.brightest;
+  }
+  if (!spot_in(*maps.back(), {column, row}).seen()) return std::nullopt;
+  return sight_of(*maps.back(), {column, row}, eye);
+}
+
+}  // namespace focalstage

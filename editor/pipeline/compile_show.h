@@ -1,0 +1,50 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/scene/finding.h"
+#include "editor/pipeline/frame_maker.h"
+#include "editor/pipeline/source.h"
+#include "io/show/reader.h"
+#include "io/show/show.h"
+
+namespace focalstage {
+
+struct CompileJob {
+  std::filesystem::path show;
+  std::optional<FrameRange> frames;  ///< none: all
+  bool resume = false;
+  EngineChoice engine;
+};
+
+struct CompileReport {
+  int frames = 0;
+  int resumed = 0;  ///< of those, taken over from an earlier run
+  std::size_t images = 0;
+  std::size_t slots = 0;
+  std::vector<Finding> findings;
+};
+
+/// Told after each frame: how many are done, of how many.
+using FrameProgress = std::function<void(int done, int of)>;
+
+/// Compiles a project into a show file: stages, compiles and measures frame after frame while finished ones are
+/// compressed and written. Findings do not prevent the show. Faults: "compile.cancelled" (what is finished stays for
+/// `resume`), "frames.range", and those of the rooms it calls.
+Result<CompileReport> compile_show(const Source& source, const CompileJob& job, const FrameProgress& progress,
+                                   std::stop_token stop);
+
+/// The findings of a project without writing anything: every frame is compiled and measured.
+Result<std::vector<Finding>> check_project(const Source& source, const EngineChoice& engine,
+                                           const FrameProgress& progress, std::stop_token stop);
+
+/// The findings of a show: what compiling measured stands in it, the rest is measured again.
+Result<std::vector<Finding>> check_show(const Source& source, const ShowReader& show, const FrameProgress& progress,
+                                        std::stop_token stop);
+
+}  // namespace focalstage

@@ -1,0 +1,48 @@
+#include "editor/pipeline/frame_maker.h"
+
+#include <utility>
+
+#include "core/reference/reference.h"
+
+namespace focalstage {
+namespace {
+
+/// Whether two moments give the same images: everything but the time.
+bool same_room(const Stage& a, const Stage& b) {
+  return a.world_from_viewer == b.world_from_viewer && a.interpupillary_m == b.interpupillary_m &&
+         a.surfaces == b.surfaces && a.objects == b.objects && a.lights == b.lights;
+}
+
+}  // namespace
+
+FrameMaker::FrameMaker(const Source& source, EngineChoice choice)
+    : source_(source),
+      choice_(choice),
+      settings_(compile_settings(source.project)),
+      compiler_(settings_, choice.threads, choice.vectors),
+      meter_(settings_.projector, settings_.lens_to_pupil_m, source.project.glasses.lens_aperture_mm / 1000.0) {}
+
+Status FrameMaker::stand_up(int frame) {
+  auto staged = stage(source_.project, source_.loaded.assets, frame / source_.project.frames.rate_hz);
+  if (!staged) return staged.fault();
+  if (stage_ && same_room(*stage_, *staged)) return {};
+  coverage_ = {};  // waits for one that still looks at the stage
+  made_.reset();
+  stage_ = std::move(*staged);
+  const auto how = choice_.threads == 1 ? std::launch::deferred : std::launch::async;
+  coverage_ = std::async(how, [this] { return meter_.measure(*stage_); }).share();
+  return {};
+}
+
+const std::vector<ObjectCoverage>& FrameMaker::coverage() { return coverage_.get(); }
+
+Result<FrameMaker::Made> FrameMaker::compile(std::stop_token stop) {
+  if (made_) return *made_;
+  auto compiled = choice_.reference ? compile_reference(*stage_, settings_, choice_.threads)
+                                    : compiler_.frame(*stage_, std::move(stop), pool_.take());
+  if (!compiled) return compiled.fault();
+  made_ = Made{pool_.share(std::move(compiled->images)), std::move(compiled->measure)};
+  return *made_;
+}
+
+}  // namespace focalstage

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <future>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/compile/compile.h"
+#include "core/compile/coverage.h"
+#include "core/stage/stage.h"
+#include "editor/pipeline/image_pool.h"
+#include "editor/pipeline/source.h"
+
+namespace focalstage {
+
+/// How to compile: what does not change the images.
+struct EngineChoice {
+  int threads = 0;  ///< 0: all
+  bool reference = false;
+  VectorPath vectors = VectorPath::best;
+};
+
+/// Makes frame after frame of a project: stands it up, measures what of it can be served, compiles it. Where nothing
+/// moved since the frame before, that one's results are given again.
+class FrameMaker {
+ public:
+  FrameMaker(const Source& source, EngineChoice choice);
+  FrameMaker(const FrameMaker&) = delete;  // a measurement under way works with this one
+  FrameMaker& operator=(const FrameMaker&) = delete;
+
+  const CompileSettings& settings() const { return settings_; }
+
+  /// Stands up frame `frame` of the project; the other calls are about it.
+  Status stand_up(int frame);
+
+  /// Measured beside whoever compiles the frame, unless one thread must do.
+  const std::vector<ObjectCoverage>& coverage();
+
+  struct Made {
+    std::shared_ptr<const FrameImages> images;
+    FrameMeasure measure;
+  };
+  Result<Made> compile(std::stop_token stop);
+
+ private:
+  const Source& source_;
+  EngineChoice choice_;
+  CompileSettings settings_;
+  Compiler compiler_;
+  CoverageMeter meter_;
+  ImagePool pool_;
+  std::optional<Stage> stage_;
+  std::optional<Made> made_;
+  std::shared_future<std::vector<ObjectCoverage>> coverage_;  ///< last: it works with all that stands above
+};
+
+}  // namespace focalstage

@@ -1,0 +1,142 @@
+#include "editor/preview/eye_painter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace focalstage {
+namespace {
+
+/// Codes of sRGB for linear light, by its first four thousand steps.
+class ScreenCodes {
+ public:
+  ScreenCodes() {
+    for (std::size_t i = 0; i < codes_.size(); ++i) {
+      const double light = static_cast<double>(i) / static_cast<double>(codes_.size() - 1);
+      const double coded = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
+      codes_[i] = static_cast<std::uint8_t>(std::lround(255.0 * coded));
+    }
+  }
+  std::uint8_t operator()(float light) const {
+    const float clamped = std::clamp(light, 0.0f, 1.0f);
+    return codes_[static_cast<std::size_t>(clamped * static_cast<float>(codes_.size() - 1) + 0.5f)];
+  }
+
+ private:
+  std::array<std::uint8_t, 4096> codes_{};
+};
+
+float luminance(const float* rgb) { return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2]; }
+
+bool is_for(const ImageSpec& image, Side side) {
+  return image.eye == ImageEye::both || static_cast<std::size_t>(image.eye) == index_of(side);
+}
+
+/// The image of `side` whose exposure is on at a moment of the sweep, or the nearest to it in time.
+int image_at(const Schedule& schedule, Side side, double time_s) {
+  int nearest = -1;
+  double least_s = INFINITY;
+  for (const Slot& slot : schedule.slots) {
+    if (slot.eye != side) continue;
+    const double away_s = std::max({slot.start_s - time_s, time_s - slot.start_s - slot.exposure_s, 0.0});
+    if (away_s < least_s) {
+      least_s = away_s;
+      nearest = slot.image;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+RetinaInput retina_input(const CompiledSlices& compiled, const CompileSettings& settings, const FrameImages& images,
+                         Side side, const EyeWish& wish) {
+  RetinaInput input;
+  input.stage = compiled.stage.get();
+  input.projector = settings.projector;
+  input.channels = settings.channels;
+  input.bits = settings.bits;
+  input.gamma = settings.gamma;
+  input.lens_to_pupil_m = settings.lens_to_pupil_m;
+  input.lens_aperture_m = compiled.project->glasses.lens_aperture_mm / 1000.0;
+  const bool one = wish.sweep_time_s && !wish.conventional;
+  const int only =
+      one ? image_at(make_schedule(*compiled.project, settings.images).schedule, side, *wish.sweep_time_s) : -1;
+  for (std::size_t i = 0; i < settings.images.size(); ++i) {
+    if (!is_for(settings.images[i], side) || (one && static_cast<int>(i) != only)) continue;
+    input.slices.push_back({images.image(i), settings.images[i].power_d});
+  }
+  return input;
+}
+
+RetinaView retina_view(const EyeWish& wish, Side side) {
+  RetinaView view;
+  view.eye = side;
+  view.focus_d = wish.focus_d;
+  view.pupil_m = wish.pupil_mm / 1000.0;
+  view.width_px = wish.width_px;
+  view.height_px = wish.height_px;
+  view.fov_deg = wish.fov_deg;
+  view.head_offset_m = wish.head_offset_m;
+  return view;
+}
+
+Status EyePainter::make_conventional(const CompiledSlices& compiled, SliceMaker& maker, std::stop_token stop) {
+  const bool stands = conventional_revision_ == compiled.revision && conventional_frame_ == compiled.frame &&
+                      conventional_divisor_ == compiled.divisor;
+  if (stands) return {};
+  auto made = maker.make(*compiled.project, *compiled.stage, SliceMaker::Variant::conventional, compiled.divisor,
+                         std::move(stop));
+  if (!made) return made.fault();
+  conventional_ = std::move(*made);
+  conventional_revision_ = compiled.revision;
+  conventional_frame_ = compiled.frame;
+  conventional_divisor_ = compiled.divisor;
+  return {};
+}
+
+Result<EyePicture> EyePainter::paint(const CompiledSlices& compiled, const EyeWish& wish, SliceMaker& maker,
+                                     std::stop_token stop) {
+  static const ScreenCodes code;
+  CompileSettings settings = compiled.settings;
+  const FrameImages* images = &compiled.images;
+  if (wish.conventional) {
+    if (Status made = make_conventional(compiled, maker, stop); !made) return made.fault();
+    settings = SliceMaker::settings_of(*compiled.project, SliceMaker::Variant::conventional, compiled.divisor);
+    images = &conventional_.images;
+  }
+  EyePicture picture{compiled.revision, compiled.divisor, wish.width_px, wish.height_px, wish.focus_d, {}};
+  picture.rgb.assign(static_cast<std::size_t>(wish.width_px) * static_cast<std::size_t>(wish.height_px) * 3, 0);
+  const bool both = wish.left && wish.right;
+  for (const Side side : both_sides) {
+    if (!(side == Side::left ? wish.left : wish.right)) continue;
+    const auto seen = retinas_[index_of(side)].view(retina_input(compiled, settings, *images, side, wish),
+                                                    retina_view(wish, side), stop);
+    if (!seen) return seen.fault();
+    for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
+      const float* light = &seen->rgb[i];
+      if (!both) {
+        for (std::size_t c = 0; c < 3; ++c) picture.rgb[i + c] = code(light[c]);
+      } else if (side == Side::left) {
+        picture.rgb[i] = code(luminance(light));
+      } else {
+        picture.rgb[i + 1] = picture.rgb[i + 2] = code(luminance(light));
+      }
+    }
+  }
+  return picture;
+}
+
+Result<std::optional<double>> EyePainter::focus_at(const CompiledSlices& compiled, const EyeWish& wish, glm::dvec2 at) {
+  const Side side = wish.left ? Side::left : Side::right;
+  const RetinaView view = retina_view(wish, side);
+  const glm::dvec2 look = look_of_pixel(view, at * glm::dvec2(view.width_px, view.height_px));
+  const auto sight = retinas_[index_of(side)].look_at(
+      retina_input(compiled, compiled.settings, compiled.images, side, wish), view, look);
+  if (!sight) return sight.fault();
+  if (!*sight) return std::optional<double>{};
+  return std::optional<double>{(*sight)->vergence_d};
+}
+
+}  // namespace focalstage

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <stop_token>
+
+#include "core/base/result.h"
+#include "core/retina/retina.h"
+#include "editor/preview/preview_values.h"
+#include "editor/preview/slice_maker.h"
+
+namespace focalstage {
+
+/// Paints what one eye sees of compiled slices, or both as red-cyan: the retina's linear light, encoded for a screen.
+class EyePainter {
+ public:
+  /// `maker` compiles the single slice of a conventional projection where that is wished for.
+  Result<EyePicture> paint(const CompiledSlices& compiled, const EyeWish& wish, SliceMaker& maker,
+                           std::stop_token stop);
+
+  /// The accommodation that what is seen at `at` (0..1 from the picture's top left corner) asks for; none where nothing
+  /// is seen.
+  Result<std::optional<double>> focus_at(const CompiledSlices& compiled, const EyeWish& wish, glm::dvec2 at);
+
+ private:
+  Retina retinas_[2];
+  CompiledFrame conventional_;
+  std::uint64_t conventional_revision_ = 0;
+  int conventional_frame_ = -1;
+  int conventional_divisor_ = 0;
+
+  Status make_conventional(const CompiledSlices& compiled, SliceMaker& maker, std::stop_token stop);
+};
+
+/// What `side` is shown: its own exposures and the light, or only the one that is on at `wish.sweep_time_s`.
+RetinaInput retina_input(const CompiledSlices& compiled, const CompileSettings& settings, const FrameImages& images,
+                         Side side, const EyeWish& wish);
+
+RetinaView retina_view(const EyeWish& wish, Side side);
+
+}  // namespace focalstage

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/base/result.h"
+#include "core/base/sides.h"
+#include "core/compile/frame.h"
+#include "core/scene/finding.h"
+#include "core/scene/project.h"
+#include "core/schedule/schedule.h"
+#include "core/stage/stage.h"
+
+namespace focalstage {
+
+/// The frame in view, compiled: at full size (`divisor` 1), or smaller while a hand is still moving things.
+struct CompiledSlices {
+  std::uint64_t revision = 0;
+  int frame = 0;
+  int divisor = 1;
+  std::shared_ptr<const Project> project;
+  std::shared_ptr<const Stage> stage;
+  CompileSettings settings;  ///< with the projector at the shown size
+  FrameImages images;
+  FrameImages uncompensated;  ///< the same without breathing compensation; empty unless asked for
+  FrameMeasure measure;
+  double compile_ms = 0.0;
+};
+
+/// What the project as a whole comes to; complete at full size only.
+struct CheckedProject {
+  std::uint64_t revision = 0;
+  bool measured = false;  ///< the findings that need a compiled frame are in
+  ScheduleResult schedule;
+  std::vector<ImageSpec> images;
+  std::vector<Finding> findings;
+};
+
+/// What one eye (or both, red-cyan) sees.
+struct EyePicture {
+  std::uint64_t revision = 0;
+  int divisor = 1;
+  int width_px = 0;
+  int height_px = 0;
+  double focus_d = 0.0;
+  std::vector<std::uint8_t> rgb;  ///< rows from the top, sRGB
+};
+
+/// How to look: what of the view state the eye's picture depends on.
+struct EyeWish {
+  bool left = true;
+  bool right = false;  ///< both: red-cyan
+  double focus_d = 2.0;
+  double pupil_mm = 4.0;
+  bool conventional = false;
+  glm::dvec3 head_offset_m{0.0};
+  double fov_deg = 40.0;
+  int width_px = 400;
+  int height_px = 300;
+  std::optional<double> sweep_time_s;  ///< only the exposure at that moment
+  bool operator==(const EyeWish&) const = default;
+};
+
+/// "Focus here": at which accommodation is what the eye's picture shows at `at` (0..1 from its top left corner) sharp?
+struct FocusQuestion {
+  int serial = 0;
+  glm::dvec2 at{0.5};
+  bool operator==(const FocusQuestion&) const = default;
+};
+struct FocusAnswer {
+  int serial = 0;
+  double focus_d = 0.0;
+};
+
+/// What the preview is to show: the newest wish is the only one.
+struct PreviewWish {
+  std::uint64_t revision = 0;
+  int frame = 0;
+  std::shared_ptr<const Project> project;
+  std::shared_ptr<const Stage> stage;
+  bool moving = false;  ///< a hand is still at it: reduced size is enough
+  bool uncompensated = false;
+  EyeWish eye;
+  std::optional<FocusQuestion> focus_at;
+};
+
+}  // namespace focalstage

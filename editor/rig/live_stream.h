@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "editor/rig/rig_link.h"
+#include "io/protocol/live_client.h"
+
+namespace focalstage {
+
+/// Keeps a rig showing the newest revision: sends what changed since the last one it was sent.
+class LiveStream {
+ public:
+  bool open() const { return link_.has_value(); }
+
+  /// Begins with `wish`. Faults of LiveLink, and of reading the project's files.
+  Status start(RigClient& rig, const LiveWish& wish);
+  void stop() { link_.reset(); }
+
+  /// Sends what differs from the last wish, if anything.
+  Status show(const LiveWish& wish);
+
+  /// What the rig answered since; the link is closed where it says that it ended. True if `status` changed.
+  bool take_answers(RigStatus& status);
+
+ private:
+  std::optional<LiveLink> link_;
+  LiveWish sent_;
+  std::set<std::string> sent_files_;  ///< by hash
+};
+
+}  // namespace focalstage

@@ -1,0 +1,356 @@
+#include "editor/rig/rig_link.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "editor/rig/live_stream.h"
+#include "editor/rig/simulated_rig.h"
+#include "io/protocol/client.h"
+
+namespace focalstage {
+namespace {
+
+using std::chrono::milliseconds;
+constexpr milliseconds connect_deadline{1500};
+constexpr milliseconds watch_interval{100};
+constexpr milliseconds retry_pause{300};
+constexpr milliseconds live_interval{20};
+
+}  // namespace
+
+struct RigLink::State {
+  std::function<void()> wake;
+  std::filesystem::path folder;
+
+  mutable std::mutex mutex;
+  std::condition_variable arrived;
+  RigStatus status;
+  std::deque<std::function<void()>> orders;  ///< for the worker, in order
+  std::stop_source push_stop;
+  bool ending = false;
+  LiveWish live_wish;
+  std::chrono::steady_clock::time_point live_again{};  ///< not before this, after it could not begin
+
+  LiveStream stream;                      ///< the worker's
+  std::optional<SimulatedRig> simulated;  ///< the worker's
+  std::optional<RigClient> client;        ///< the worker's; holds the rig
+
+  std::vector<std::jthread> blackouts;  ///< each waits for nothing that was asked before
+  std::jthread watcher;                 ///< started and joined by the worker
+  std::thread worker;
+
+  void run();
+  void order(std::function<void()> what);
+  void connect_to(const std::string& address, bool own);
+  void leave();
+  void begin_simulated();
+  void revive();
+  void watch(const std::string& address, std::stop_token stop);
+  void tell(const Status& done);
+  void stay_live();
+  void push(const MakeShow& make, std::stop_token stop);
+
+  template <class Change>
+  void publish(Change&& change) {
+    {
+      const std::lock_guard lock(mutex);
+      change(status);
+    }
+    wake();
+  }
+};
+
+void RigLink::State::order(std::function<void()> what) {
+  const std::lock_guard lock(mutex);
+  orders.push_back(std::move(what));
+  arrived.notify_one();
+}
+
+void RigLink::State::run() {
+  for (;;) {
+    std::function<void()> next;
+    {
+      std::unique_lock lock(mutex);
+      const auto something = [&] { return ending || !orders.empty(); };
+      if (status.live_wanted) {
+        arrived.wait_for(lock, live_interval, something);
+      } else {
+        arrived.wait(lock, something);
+      }
+      if (ending) break;
+      if (!orders.empty()) {
+        next = std::move(orders.front());
+        orders.pop_front();
+      }
+    }
+    if (next) next();
+    stay_live();
+  }
+  leave();
+}
+
+/// Begins what is wanted and not there yet, sends the newest revision, takes what the rig answered.
+void RigLink::State::stay_live() {
+  LiveWish wish;
+  bool wanted = false;
+  {
+    const std::lock_guard lock(mutex);
+    wanted = status.live_wanted && status.phase == RigStatus::Phase::connected;
+    wish = live_wish;
+  }
+  const auto now = std::chrono::steady_clock::now();
+  if (!wanted && stream.open()) {
+    stream.stop();
+    publish([](RigStatus& shown) { shown.live = false; });
+  }
+  if (wanted && !stream.open() && client && wish.project && now >= live_again) {
+    const Status begun = stream.start(*client, wish);
+    live_again = now + retry_pause;
+    publish([&](RigStatus& shown) {
+      shown.live = begun.ok();
+      shown.fault.reset();
+      if (!begun) shown.fault = begun.fault();
+    });
+  }
+  if (!stream.open()) return;
+  if (const Status sent = stream.show(wish); !sent) {
+    publish([&](RigStatus& shown) { shown.fault = sent.fault(); });
+  }
+  bool changed = false;
+  {
+    const std::lock_guard lock(mutex);
+    changed = stream.take_answers(status);
+  }
+  if (changed) wake();
+}
+
+void RigLink::State::leave() {
+  stream.stop();
+  watcher = {};
+  client.reset();
+  simulated.reset();
+}
+
+void RigLink::State::tell(const Status& done) {
+  publish([&](RigStatus& now) {
+    now.fault.reset();
+    if (!done) now.fault = done.fault();
+  });
+}
+
+void RigLink::State::connect_to(const std::string& address, bool own) {
+  publish([&](RigStatus& now) {
+    now = RigStatus{};
+    now.phase = RigStatus::Phase::connecting;
+    now.address = address;
+    now.simulated = own;
+  });
+  auto made = RigClient::connect(address, connect_deadline);
+  if (!made) {
+    publish([&](RigStatus& now) {
+      now.phase = RigStatus::Phase::none;
+      now.fault = made.fault();
+    });
+    return;
+  }
+  client = std::move(*made);
+  auto description = client->describe();
+  publish([&](RigStatus& now) {
+    now.phase = RigStatus::Phase::connected;
+    if (description) now.description = *description;
+  });
+  watcher = std::jthread([this, address](std::stop_token stop) { watch(address, std::move(stop)); });
+}
+
+void RigLink::State::begin_simulated() {
+  auto rig = SimulatedRig::start(folder / "simulated-rig");
+  if (!rig) {
+    publish([&](RigStatus& now) {
+      now.phase = RigStatus::Phase::none;
+      now.fault = rig.fault();
+    });
+    return;
+  }
+  simulated = std::move(*rig);
+  connect_to(simulated->address(), true);
+}
+
+/// A simulated rig of ours that died is started again; a real one comes back by itself, or does not.
+void RigLink::State::revive() {
+  if (!simulated || simulated->running()) return;
+  const bool was_live = [&] {
+    const std::lock_guard lock(mutex);
+    return status.live_wanted;
+  }();
+  leave();
+  begin_simulated();
+  publish([&](RigStatus& now) { now.live_wanted = was_live; });
+}
+
+void RigLink::State::watch(const std::string& address, std::stop_token stop) {
+  while (!stop.stop_requested()) {
+    auto watching = RigClient::connect(address, retry_pause);
+    if (!watching) {
+      publish([&](RigStatus& now) {
+        now.phase = RigStatus::Phase::lost;
+        now.live = false;
+        now.fault = watching.fault();
+      });
+      order([this] { revive(); });
+      continue;
+    }
+    const Status ended = watching->watch(watch_interval, [&](const RigState& seen) {
+      publish([&](RigStatus& now) {
+        now.phase = RigStatus::Phase::connected;
+        now.state = seen;
+      });
+      return !stop.stop_requested();
+    });
+    if (!ended && !stop.stop_requested()) {
+      publish([&](RigStatus& now) {
+        now.phase = RigStatus::Phase::lost;
+        now.fault = ended.fault();
+      });
+      std::this_thread::sleep_for(retry_pause);
+    }
+  }
+}
+
+void RigLink::State::push(const MakeShow& make, std::stop_token stop) {
+  const auto step = [this](const char* words) {
+    return [this, words](double share) {
+      publish([&](RigStatus& now) {
+        now.push_step = words;
+        now.push_share = share;
+      });
+    };
+  };
+  const auto show = make(step("Compiling"), stop);
+  Status pushed = show ? client->push(*show, true, step("Sending"), stop) : Status(show.fault());
+  auto seen = pushed ? client->state() : Result<RigState>(RigState{});
+  publish([&](RigStatus& now) {
+    now.pushing = false;
+    now.push_share = -1.0;
+    now.push_step.clear();
+    now.fault.reset();
+    if (!pushed) now.fault = pushed.fault();
+    if (pushed && seen) {
+      now.pushed_sha256 = seen->show_sha256;
+      now.state = *seen;
+    }
+  });
+}
+
+RigLink::RigLink(std::function<void()> wake, std::filesystem::path state_folder) : state_(std::make_unique<State>()) {
+  state_->wake = std::move(wake);
+  state_->folder = std::move(state_folder);
+  state_->worker = std::thread([this] { state_->run(); });
+}
+
+RigLink::~RigLink() {
+  {
+    const std::lock_guard lock(state_->mutex);
+    state_->ending = true;
+    state_->push_stop.request_stop();
+  }
+  state_->arrived.notify_all();
+  state_->worker.join();
+}
+
+void RigLink::connect(std::string address) {
+  state_->order([this, address = std::move(address)] {
+    state_->leave();
+    state_->connect_to(address, false);
+  });
+}
+
+void RigLink::simulate() {
+  state_->publish([](RigStatus& now) { now.phase = RigStatus::Phase::connecting; });
+  state_->order([this] {
+    state_->leave();
+    state_->begin_simulated();
+  });
+}
+
+void RigLink::disconnect() {
+  state_->order([this] {
+    state_->leave();
+    state_->publish([](RigStatus& now) { now = RigStatus{}; });
+  });
+}
+
+void RigLink::push(MakeShow make) {
+  std::stop_token stop;
+  {
+    const std::lock_guard lock(state_->mutex);
+    if (state_->status.pushing) return;
+    state_->status.pushing = true;
+    state_->push_stop = std::stop_source();
+    stop = state_->push_stop.get_token();
+  }
+  state_->order([this, make = std::move(make), stop] {
+    if (state_->client) {
+      state_->push(make, stop);
+    } else {
+      state_->publish([](RigStatus& now) { now.pushing = false; });
+    }
+  });
+}
+
+void RigLink::cancel_push() {
+  const std::lock_guard lock(state_->mutex);
+  state_->push_stop.request_stop();
+}
+
+void RigLink::live(bool on) {
+  state_->publish([&](RigStatus& now) { now.live_wanted = on; });
+  state_->order([] {});
+}
+
+void RigLink::show(LiveWish wish) {
+  const std::lock_guard lock(state_->mutex);
+  if (wish.revision == state_->live_wish.revision && wish.frame == state_->live_wish.frame) return;
+  state_->live_wish = std::move(wish);
+  if (state_->status.live_wanted) state_->orders.push_back([] {});
+  state_->arrived.notify_one();
+}
+
+void RigLink::play() {
+  state_->order([this] {
+    if (state_->client) state_->tell(state_->client->play());
+  });
+}
+
+void RigLink::hold() {
+  state_->order([this] {
+    if (state_->client) state_->tell(state_->client->hold());
+  });
+}
+
+void RigLink::go() {
+  state_->order([this] {
+    if (state_->client) state_->tell(state_->client->go());
+  });
+}
+
+void RigLink::blackout() {
+  const std::string address = status().address;
+  if (address.empty()) return;
+  // A call of its own, which needs no hold on the rig.
+  state_->blackouts.emplace_back([state = state_.get(), address] {
+    auto own = RigClient::connect(address, connect_deadline);
+    state->tell(own ? own->blackout() : Status(own.fault()));
+  });
+}
+
+RigStatus RigLink::status() const {
+  const std::lock_guard lock(state_->mutex);
+  return state_->status;
+}
+
+}  // namespace focalstage

@@ -1,0 +1,332 @@
+#include "editor/session/session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/trigonometric.hpp>
+
+#include "core/stage/stage.h"
+#include "editor/session/edits.h"
+#include "editor/session/session_state.h"
+#include "editor/tools/pick.h"
+#include "editor/tools/room_camera.h"
+
+namespace focalstage {
+namespace {
+
+constexpr std::size_t longest_log = 1000;
+/// A view's size where it is not known yet.
+constexpr glm::dvec2 usual_pane_px(640.0, 480.0);
+/// Of the eye's view: a lens of 16 mm at 15 mm shows 56 degrees.
+constexpr double narrowest_deg = 20.0, widest_deg = 60.0;
+
+LogLine::Kind kind_of(const Status& status) { return status ? LogLine::Kind::info : LogLine::Kind::fault; }
+
+/// The project without what cannot be stood up for want of its file.
+Project without_missing(const Project& project, const Assets& assets) {
+  Project shown = project;
+  const auto is_there = [&](const MeshSource& mesh) {
+    const auto* file = std::get_if<FileMesh>(&mesh.shape);
+    return !file || assets.models.contains(file->file);
+  };
+  for (Surface& surface : shown.surfaces) surface.hidden = surface.hidden || !is_there(surface.mesh);
+  for (Object& object : shown.objects) object.hidden = object.hidden || !is_there(object.mesh);
+  return shown;
+}
+
+}  // namespace
+
+Session::State::State(std::function<void()> wake_up, UserFolders user_folders)
+    : wake(wake_up),
+      folders(std::move(user_folders)),
+      recent(recent_projects(folders)),
+      left_behind(recoveries(folders, recent)),
+      recent_rigs(focalstage::recent_rigs(folders)),
+      sample_cards(make_sample_cards()),
+      preview(wake_up),
+      reader(wake_up),
+      rig(wake_up, folders.state),
+      jobs(wake_up) {}
+
+void Session::State::say(LogLine::Kind kind, std::string text) {
+  log.push_back({kind, text, now_s});
+  if (log.size() > longest_log) log.pop_front();
+  notice = log.back();
+}
+
+Status Session::State::apply(std::string words, std::vector<Edit> edits, Joining joining) {
+  if (!document) return Fault{"session.nothing-open", "", "no project is open", "open one first"};
+  if (edits.empty()) return {};
+  if (Status applied = document->apply({std::move(words), std::move(edits)}, joining); !applied) {
+    say(LogLine::Kind::fault, describe(applied.fault()));
+    return applied;
+  }
+  tidy();
+  restage();
+  wish_preview();
+  return {};
+}
+
+void Session::State::tidy() {
+  std::erase_if(selection.things, [&](const Thing& thing) { return !exists(project(), thing); });
+  view.frame = std::clamp(view.frame, 0, std::max(0, project().frames.count - 1));
+  if (view.renaming && !exists(project(), *view.renaming)) view.renaming.reset();
+  if (view.key_time_s && !has_key_at(project(), selection.primary(), *view.key_time_s)) view.key_time_s.reset();
+}
+
+void Session::State::restage() {
+  if (!document) {
+    stage = nullptr;
+    return;
+  }
+  if (staged_revision == revision() && staged_frame == view.frame && stage) return;
+  const std::vector<std::string> wanted = document->shelf().wanted(project());
+  if (!wanted.empty()) {
+    // Files are read behind the window; until then the rest of the room stands without them.
+    jobs.start("Read " + wanted.front() + (wanted.size() > 1 ? " and others" : ""),
+               [this, folder = document->folder(), wanted](const Jobs::Progress&, std::stop_token) -> Jobs::Finish {
+                 auto read = std::make_shared<AssetShelf::Read>(AssetShelf::read(folder, wanted));
+                 return [this, folder, read] {
+                   if (!document || document->folder() != folder) return;
+                   document->shelf().put(std::move(*read));
+                   staged_frame = -1;
+                   restage();
+                   wish_preview();
+                 };
+               });
+  }
+  asset_findings = document->shelf().findings(project());
+  const Assets& assets = document->shelf().assets();
+  auto stood = focalstage::stage(without_missing(project(), assets), assets, frame_time_s());
+  if (!stood) {
+    const Fault& fault = stood.fault();
+    asset_findings.push_back({Severity::error, fault.code, fault.where, fault.message, {}, {}});
+    if (!stage) stage = std::make_shared<const Stage>();
+  } else {
+    stage = std::make_shared<const Stage>(std::move(*stood));
+  }
+  staged_revision = revision();
+  staged_frame = view.frame;
+}
+
+void Session::State::wish_preview() {
+  if (!document || !stage || project().projectors.empty() || project().slices.powers_d.empty()) return;
+  PreviewWish wish;
+  wish.revision = revision();
+  wish.frame = view.frame;
+  wish.project = document->history().now();
+  wish.stage = stage;
+  wish.moving = dragging || view.playing;
+  wish.uncompensated = view.compensation != Compensation::on;
+  wish.eye = {view.eye != EyeShown::right,
+              view.eye != EyeShown::left,
+              view.focus_d,
+              view.pupil_mm,
+              view.conventional,
+              view.head_offset_m,
+              view.fov_deg,
+              eye_size_px.x,
+              eye_size_px.y,
+              view.sweep_time_s};
+  wish.focus_at = focus_question;
+  preview.want(std::move(wish));
+  rig.show({revision(), view.frame, document->history().now(), document->folder()});
+}
+
+void Session::State::take(Document opened) {
+  revision_base = revision() + 1;
+  document.emplace(std::move(opened));
+  selection = {};
+  const ViewState fresh;
+  view.renaming.reset();
+  view.key_time_s.reset();
+  view.frame = 0;
+  view.playing = false;
+  view.filled = fresh.filled;
+  view.sweep_time_s.reset();
+  view.image = 0;
+  staged_frame = -1;
+  stage = nullptr;
+  preview.clear();
+  recent = recent_projects(folders);
+  restage();
+  fit_views();
+  wish_preview();
+  for (const Finding& note : document->notes()) say(LogLine::Kind::info, note.where + ": " + note.message);
+}
+
+/// The room's camera and the eye's field such that everything is seen at first.
+void Session::State::fit_views() {
+  view.camera = fitted(RoomCamera{}, usual_pane_px, stage_bounds(*stage, {}, true));
+  double slope = 0.0;
+  const Rigid viewer_from_world = stage->world_from_viewer.inverse();
+  const auto include = [&](const std::vector<Drawable>& drawables) {
+    const Bounds bounds = world_bounds(drawables);
+    for (int corner = 0; corner < 8 && !bounds.empty(); ++corner) {
+      const glm::dvec3 at((corner & 1) != 0 ? bounds.max_m.x : bounds.min_m.x,
+                          (corner & 2) != 0 ? bounds.max_m.y : bounds.min_m.y,
+                          (corner & 4) != 0 ? bounds.max_m.z : bounds.min_m.z);
+      const glm::dvec3 seen = viewer_from_world.point(at);
+      if (seen.z < -0.05) {
+        slope =
+            std::max({slope, std::abs(seen.x / seen.z), usual_pane_px.x / usual_pane_px.y * std::abs(seen.y / seen.z)});
+      }
+    }
+  };
+  for (const StagedObject& object : stage->objects) include(object.drawables);
+  view.fov_deg = std::clamp(glm::degrees(2.0 * std::atan(1.1 * slope)), narrowest_deg, widest_deg);
+}
+
+void Session::State::close_document() {
+  if (!document) return;
+  document->close();
+  revision_base = revision() + 1;
+  document.reset();
+  selection = {};
+  stage = nullptr;
+  asset_findings.clear();
+  preview.clear();
+  recent = recent_projects(folders);
+  left_behind = recoveries(folders, recent);
+}
+
+void Session::State::leave_then(std::function<void()> next) {
+  if (!document || !document->unsaved()) {
+    next();
+    return;
+  }
+  asked = Asked{{"Save the changes to " + project().name + "?",
+                 document->untitled() ? "It has never been saved." : "They are lost otherwise.",
+                 {document->untitled() ? "Save As..." : "Save", "Discard", "Cancel"}},
+                {}};
+  const auto save = [this, next] {
+    if (document->untitled()) {
+      file_wish = FileWish::save_as;
+      after_save = next;
+      return;
+    }
+    if (Status saved = document->save(); !saved) {
+      say(LogLine::Kind::fault, describe(saved.fault()));
+      return;
+    }
+    next();
+  };
+  asked->answers = {save, next};
+}
+
+Session::Session(std::function<void()> wake)
+    : state_(std::make_unique<State>(std::move(wake), UserFolders::of_environment())) {}
+
+Session::~Session() = default;
+
+Status Session::run(std::string_view command, const Value& args) {
+  const Command* found = command_named(command);
+  Status done;
+  if (!found) {
+    done = Fault{"command.unknown", std::string(command), "there is no such command", "see the palette (Ctrl+P)"};
+  } else if (std::string why = found->unavailable(*this); !why.empty()) {
+    done = Fault{"command.unavailable", std::string(found->title), why, ""};
+  } else {
+    done = found->run(*this, args);
+  }
+  if (!done) state_->say(kind_of(done), describe(done.fault()));
+  return done;
+}
+
+Status Session::edit(std::string words, std::vector<Edit> edits) {
+  end_drag();
+  return state_->apply(std::move(words), std::move(edits));
+}
+
+Status Session::drag(std::string words, std::vector<Edit> edits) {
+  state_->dragging = true;
+  const Joining joining = state_->drag_has_step ? Joining::continues_last : Joining::own_step;
+  Status applied = state_->apply(std::move(words), std::move(edits), joining);
+  if (applied) state_->drag_has_step = true;
+  return applied;
+}
+
+void Session::end_drag() {
+  if (!state_->dragging) return;
+  state_->dragging = false;
+  state_->drag_has_step = false;
+  state_->wish_preview();
+}
+
+bool Session::dragging() const { return state_->dragging; }
+bool Session::has_document() const { return state_->document.has_value(); }
+const Document& Session::document() const { return *state_->document; }
+const Project& Session::project() const { return state_->project(); }
+std::uint64_t Session::revision() const { return state_->revision(); }
+const std::shared_ptr<const Stage>& Session::stage() const { return state_->stage; }
+const Selection& Session::selection() const { return state_->selection; }
+
+void Session::select(std::vector<Thing> things) {
+  if (things != state_->selection.things) state_->view.key_time_s.reset();
+  state_->selection.things = std::move(things);
+  state_->tidy();
+}
+
+const ViewState& Session::view() const { return state_->view; }
+ViewState& Session::view() { return state_->view; }
+std::shared_ptr<const CompiledSlices> Session::slices() const { return state_->preview.slices(); }
+std::shared_ptr<const CheckedProject> Session::checked() const { return state_->preview.checked(); }
+std::shared_ptr<const EyePicture> Session::eye_picture() const { return state_->preview.eye_picture(); }
+
+void Session::want_eye_size(int width_px, int height_px) {
+  state_->eye_size_px = {std::clamp(width_px, 16, 2048), std::clamp(height_px, 16, 2048)};
+}
+
+void Session::focus_at(glm::dvec2 at) {
+  const int serial = state_->focus_question ? state_->focus_question->serial + 1 : 1;
+  state_->focus_question = FocusQuestion{serial, at};
+  state_->wish_preview();
+}
+
+void Session::read_pixel(Side side, glm::ivec2 pixel) { state_->reader.ask(slices(), side, pixel); }
+std::shared_ptr<const PixelReading> Session::pixel_reading() const { return state_->reader.answer(); }
+bool Session::compiling() const { return state_->preview.busy(); }
+std::optional<Fault> Session::compile_fault() const { return state_->preview.fault(); }
+const RigLink& Session::rig() const { return state_->rig; }
+const Log& Session::log() const { return state_->log; }
+const std::vector<Task>& Session::tasks() const { return state_->jobs.tasks(); }
+void Session::cancel_task(int id) { state_->jobs.cancel(id); }
+const std::optional<LogLine>& Session::notice() const { return state_->notice; }
+void Session::dismiss_notice() { state_->notice.reset(); }
+const std::vector<std::filesystem::path>& Session::recent() const { return state_->recent; }
+const std::vector<Recovery>& Session::left_behind() const { return state_->left_behind; }
+const std::vector<SampleCard>& Session::sample_cards() const { return state_->sample_cards; }
+
+void Session::want_sample_pictures() {
+  if (!state_->drawing_samples) state_->draw_next_sample();
+}
+
+const std::vector<std::string>& Session::recent_rigs() const { return state_->recent_rigs; }
+bool Session::palette_open() const { return state_->palette_open; }
+void Session::close_palette() { state_->palette_open = false; }
+FileWish Session::file_wish() const { return state_->file_wish; }
+
+void Session::forget_file_wish() {
+  state_->file_wish = FileWish::none;
+  state_->import_replaces = {};
+  state_->after_save = nullptr;
+}
+
+bool Session::wants_to_quit() const { return state_->quitting; }
+
+std::vector<Finding> Session::findings() const {
+  std::vector<Finding> findings = state_->asset_findings;
+  if (const auto known = checked()) findings.insert(findings.end(), known->findings.begin(), known->findings.end());
+  return findings;
+}
+
+const Question* Session::question() const { return state_->asked ? &state_->asked->question : nullptr; }
+
+void Session::answer(std::size_t choice) {
+  if (!state_->asked) return;
+  const Asked asked = *std::exchange(state_->asked, std::nullopt);
+  if (choice < asked.answers.size()) asked.answers[choice]();
+}
+
+}  // namespace focalstage

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "core/base/sides.h"
+#include "editor/session/thing.h"
+#include "editor/tools/handle_frame.h"
+#include "editor/tools/room_camera.h"
+
+namespace focalstage {
+
+enum class PaneId { room, projector, eye, time };
+enum class LookThrough { nothing, left_eye, right_eye, projector };
+enum class Compensation { on, off, difference };
+enum class ProjectorPicture { slice, assignment };
+enum class EyeShown { left, right, red_cyan };
+
+/// What the views show and how: nothing of this is the project's.
+struct ViewState {
+  std::optional<PaneId> filled;  ///< the one pane that fills the centre
+
+  RoomCamera camera;
+  LookThrough look_through = LookThrough::nothing;
+  bool show_sheets = true;
+  bool show_frusta = true;
+  bool tint_by_slice = false;
+  HandleTool tool = HandleTool::move;
+  HandleSpace space = HandleSpace::world;
+  bool snap = false;
+  double snap_m = 0.01;
+  double snap_deg = 5.0;
+
+  Side side = Side::left;  ///< whose images the projector view shows
+  int image = 0;           ///< in the image plan
+  ProjectorPicture picture = ProjectorPicture::slice;
+  Compensation compensation = Compensation::on;
+  double zoom = 0.0;  ///< screen pixels per projector pixel; 0: fit
+  glm::dvec2 pan_px{0.0};
+
+  EyeShown eye = EyeShown::left;
+  double focus_d = 2.0;  ///< accommodation, as a vergence from the lens centre
+  double pupil_mm = 4.0;
+  bool conventional = false;      ///< one slice at 0 D instead of the sweep
+  glm::dvec3 head_offset_m{0.0};  ///< in the viewer's axes, at most 5 cm
+  double fov_deg = 40.0;
+
+  std::optional<double> sweep_time_s;  ///< the moment of the sweep that all views follow; none: the whole period
+  int frame = 0;
+  bool playing = false;              ///< the timeline, not the rig
+  std::optional<double> key_time_s;  ///< the chosen key of the selected thing: what Delete removes
+
+  std::optional<Thing> renaming;  ///< whose name is being typed in the outline
+
+  std::string bottom_tab = "findings";  ///< the panel shown below the views
+
+  bool operator==(const ViewState&) const = default;
+};
+
+}  // namespace focalstage

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "editor/tools/fixtures.h"
+#include "editor/tools/room_view.h"
+#include "editor/tools/slice_sheets.h"
+#include "editor/window/base/vtk_target.h"
+#include "editor/window/views/room_actors.h"
+#include "editor/window/views/room_ground.h"
+#include "editor/window/views/room_meshes.h"
+#include "editor/window/views/room_surfaces.h"
+
+namespace focalstage {
+
+class Session;
+
+/// What the room's picture is made of: the stage and its fixtures as VTK actors, kept from one revision to the next.
+class RoomScene {
+ public:
+  RoomScene();
+  ~RoomScene();
+
+  /// Takes over what changed of the session's stage, images and view state.
+  void take(const Session& session);
+
+  /// Renders it. `moving`: large meshes by their stand-ins. `supersample` 2: the picture at rest.
+  void render(const RoomView& view, const Session& session, bool moving, int supersample, double scale);
+
+  Picture picture() const { return target_.picture(); }
+  void finalize() { target_.finalize(); }
+
+  Picker& picker() { return picker_; }
+  const std::vector<Fixture>& fixtures() const { return fixtures_; }
+  const std::vector<SliceSheet>& sheets() const { return sheets_; }
+  const Floor& floor() const { return floor_; }
+
+  /// Whether a stand-in for a large mesh has arrived since it was asked.
+  bool take_ready() { return meshes_.take_ready(); }
+
+ private:
+  struct Tinted {
+    std::vector<Rgb> colours;
+    Drawable drawable;
+    Depth depth;
+  };
+
+  void take_objects(const Session& session, const Project& project, const Stage& stage);
+  const std::vector<Rgb>& tint_of(const Project& project, const Stage& stage, const StagedObject& object,
+                                  std::size_t part);
+  void forget_stale_tints(const Project& project, const Stage& stage);
+  void set_camera(const RoomView& view);
+
+  VtkTarget target_;
+  RoomMeshes meshes_;
+  RoomActors actors_;
+  RoomSurfaces surfaces_;
+  RoomFloor ground_;
+  RoomSheets sheet_faces_;
+  Picker picker_;
+  std::vector<Fixture> fixtures_;
+  std::vector<SliceSheet> sheets_;
+  Floor floor_;
+  std::map<std::pair<std::string, std::size_t>, Tinted> tints_;
+  Slices tinted_slices_;
+  std::vector<StagedSurface> tinted_surfaces_;
+  Rigid tinted_viewer_;
+  std::shared_ptr<const Stage> taken_stage_;
+  std::uint64_t taken_revision_ = 0;
+  bool taken_tint_ = false;
+  std::shared_ptr<const CompiledSlices> taken_slices_;
+};
+
+}  // namespace focalstage
