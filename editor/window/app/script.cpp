@@ -135,11 +135,17 @@ Step move_step(Line& line) {
 }
 
 Step hold_step(Line& line, bool down) {
+  const char* form = "press [PLACE] [right|middle], release [PLACE] [right|middle]";
   HoldButton step;
   step.down = down;
+  const std::string first = line.words.peek();
+  if (!line.words.at_end() && first != "right" && first != "middle") {
+    step.place = take_place(line.words);
+    if (!step.place) return line.wrong(form);
+  }
   if (line.words.take_if("right")) step.button = 1;
   if (line.words.take_if("middle")) step.button = 2;
-  if (!line.words.at_end()) return line.wrong("press [right|middle], release [right|middle]");
+  if (!line.words.at_end()) return line.wrong(form);
   return ScriptStep{step};
 }
 

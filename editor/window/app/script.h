@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -53,6 +54,7 @@ struct MovePointer {
   ScriptPlace place;
 };
 struct HoldButton {
+  std::optional<ScriptPlace> place;  ///< where the pointer goes first; none: where it is
   bool down = true;
   int button = 0;
 };

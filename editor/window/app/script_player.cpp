@@ -183,6 +183,9 @@ Status ScriptPlayer::act(const MovePointer& step) {
 }
 
 Status ScriptPlayer::act(const HoldButton& step) {
+  if (step.place) {
+    if (const Status moved = act(MovePointer{*step.place}); !moved) return moved;
+  }
   editor_.window().input().button(step.button, step.down);
   answer();
   return {};
