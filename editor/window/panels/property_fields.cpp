@@ -176,6 +176,7 @@ PropertyChange PropertyFields::draw_number(const Property& row) {
 PropertyChange PropertyFields::draw_text(const Property& row) {
   FieldStyle style;
   style.width_px = begin_field(row);
+  style.select_all = true;
   style.mixed = row.mixed;
   style.tip = {{}, {}, row.unavailable};
   const std::string now = row.mixed || !row.value.text() ? std::string() : *row.value.text();

@@ -296,6 +296,7 @@ void TimelineRuler::draw_rename(Session& session) {
   FieldStyle style;
   style.width_px = px(190);
   style.focus = first || ImGui::IsWindowAppearing();
+  style.select_all = true;
   const TextChange change = text_field("cue name", typed_, style);
   const bool left = ImGui::IsItemDeactivated();
   if ((change.finished || left) && !key_pressed(ImGuiKey_Escape) && typed_ != renamed_cue_) {
