@@ -62,8 +62,7 @@ void draw_entry(const PaletteEntry& entry, const RowPlace& place, bool selected)
   ImGui::PushFont(small_font());
   const std::string shown = elided(beside, room);
   ImGui::PopFont();
-  list.AddText(small_font(), small_font()->FontSize, {left + title + px(14), y + px(1)},
-               theme::dim, shown.c_str());
+  list.AddText(small_font(), small_font()->FontSize, {left + title + px(14), y + px(1)}, theme::dim, shown.c_str());
 }
 
 class PalettePanel final : public Panel {
