@@ -64,7 +64,13 @@ void tell_of_rig(Session::State& state) {
   const RigStatus rig = state.rig.status();
   RigTold& told = state.rig_told;
   if (rig.phase != told.phase) {
-    if (rig.phase == Phase::connected) state.say(LogLine::Kind::good, "Connected to the rig at " + rig.address);
+    if (rig.phase == Phase::connected) {
+      state.say(LogLine::Kind::good, "Connected to the rig at " + rig.address);
+      if (!rig.simulated) {
+        remember_rig(rig.address, state.folders);
+        state.recent_rigs = recent_rigs(state.folders);
+      }
+    }
     if (rig.phase == Phase::lost) {
       state.say(LogLine::Kind::warning, "Lost the rig at " + rig.address + "; it is tried again until it answers");
     }
