@@ -15,6 +15,7 @@ void add_file_commands(CommandList& list);
 void add_export_commands(CommandList& list);
 void add_edit_commands(CommandList& list);
 void add_things_commands(CommandList& list);
+void add_place_commands(CommandList& list);
 void add_time_commands(CommandList& list);
 void add_view_commands(CommandList& list);
 void add_eye_commands(CommandList& list);

@@ -20,6 +20,7 @@ std::span<const Command> commands() {
     add_export_commands(made);
     add_edit_commands(made);
     add_things_commands(made);
+    add_place_commands(made);
     add_time_commands(made);
     add_view_commands(made);
     add_eye_commands(made);

@@ -35,7 +35,11 @@ RigLink& link(Session& session) { return SessionAccess::of(session).rig; }
 
 /// args: address, HOST:PORT
 Status connect(Session& session, const Value& args) {
-  link(session).connect(text_or(args, "address", default_rig_address));
+  auto& state = SessionAccess::of(session);
+  const std::string address = text_or(args, "address", default_rig_address);
+  state.rig.connect(address);
+  remember_rig(address, state.folders);
+  state.recent_rigs = recent_rigs(state.folders);
   return {};
 }
 

@@ -66,6 +66,15 @@ Status four(Session& session, const Value&) {
   return {};
 }
 
+enum class Tab { findings, history, log };
+
+template <Tab Shown>
+Status bottom(Session& session, const Value&) {
+  static constexpr std::array<const char*, 3> names{"findings", "history", "log"};
+  session.view().bottom_tab = names[static_cast<std::size_t>(Shown)];
+  return {};
+}
+
 /// args: image, in the image plan
 Status image(Session& session, const Value& args) {
   const auto number = number_arg(args, "image");
@@ -141,6 +150,11 @@ void add_view_commands(CommandList& list) {
   add({"view.fill-time", "Fill with the sweep", "F4", "The sweep alone, or all four views", "time", true, needs_project,
        fill<PaneId::time>});
   add({"view.four", "All four views", "F5", "", "four", true, needs_project, four});
+  add({"view.findings", "Show the findings", "", "What is wrong with the project", "finding", true, needs_project,
+       bottom<Tab::findings>});
+  add({"view.history", "Show the history", "", "All steps, to go back to any of them", "history", true, needs_project,
+       bottom<Tab::history>});
+  add({"view.log", "Show the log", "", "What happened since the start", "log", true, needs_project, bottom<Tab::log>});
   add({"projector.image", "Show an image", "", "", "", false, needs_project, image});
   add({"projector.assignment", "Assignment in false colours", "A", "Which slice lights each pixel", "tint", true,
        needs_project, assignment});

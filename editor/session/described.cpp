@@ -115,6 +115,8 @@ Value Session::described() const {
   value.set("tasks", static_cast<double>(tasks().size()));
   value.set("recoveries", static_cast<double>(left_behind().size()));
   value.set("recent", static_cast<double>(recent().size()));
+  value.set("file_wish", static_cast<int>(state.file_wish));
+  value.set("bottom_tab", view().bottom_tab);
   value.set("palette", state.palette_open);
   value.set("quitting", state.quitting);
   return value;

@@ -24,7 +24,8 @@ class Jobs {
   explicit Jobs(std::function<void()> wake) : wake_(std::move(wake)) {}
   ~Jobs();
 
-  void start(std::string title, Work work);
+  /// `quiet`: as the Task says.
+  void start(std::string title, Work work, bool quiet = false);
   void cancel(int id);
 
   /// Does what finished jobs returned. True if there was anything to do or progress was made.

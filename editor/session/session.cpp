@@ -42,6 +42,8 @@ Session::State::State(std::function<void()> wake_up, UserFolders user_folders)
       folders(std::move(user_folders)),
       recent(recent_projects(folders)),
       left_behind(recoveries(folders, recent)),
+      recent_rigs(focalstage::recent_rigs(folders)),
+      sample_cards(make_sample_cards()),
       preview(wake_up),
       reader(wake_up),
       rig(wake_up, folders.state),
@@ -156,7 +158,10 @@ void Session::State::take(Document opened) {
 
 /// The room's camera and the eye's field such that everything is seen at first.
 void Session::State::fit_views() {
-  view.camera = fitted(RoomCamera{}, usual_pane_px, stage_bounds(*stage, {}, true));
+  const ViewState fresh;
+  view.camera = fresh.camera;
+  view.fov_deg = fresh.fov_deg;
+  if (!stage_bounds(*stage).empty()) view.camera = fitted(fresh.camera, usual_pane_px, stage_bounds(*stage, {}, true));
   double slope = 0.0;
   const Rigid viewer_from_world = stage->world_from_viewer.inverse();
   const auto include = [&](const std::vector<Drawable>& drawables) {
@@ -173,7 +178,7 @@ void Session::State::fit_views() {
     }
   };
   for (const StagedObject& object : stage->objects) include(object.drawables);
-  view.fov_deg = std::clamp(glm::degrees(2.0 * std::atan(1.1 * slope)), narrowest_deg, widest_deg);
+  if (slope > 0.0) view.fov_deg = std::clamp(glm::degrees(2.0 * std::atan(1.1 * slope)), narrowest_deg, widest_deg);
 }
 
 void Session::State::close_document() {
@@ -289,10 +294,18 @@ std::optional<Fault> Session::compile_fault() const { return state_->preview.fau
 const RigLink& Session::rig() const { return state_->rig; }
 const Log& Session::log() const { return state_->log; }
 const std::vector<Task>& Session::tasks() const { return state_->jobs.tasks(); }
+void Session::cancel_task(int id) { state_->jobs.cancel(id); }
 const std::optional<LogLine>& Session::notice() const { return state_->notice; }
 void Session::dismiss_notice() { state_->notice.reset(); }
 const std::vector<std::filesystem::path>& Session::recent() const { return state_->recent; }
 const std::vector<Recovery>& Session::left_behind() const { return state_->left_behind; }
+const std::vector<SampleCard>& Session::sample_cards() const { return state_->sample_cards; }
+
+void Session::want_sample_pictures() {
+  if (!state_->drawing_samples) state_->draw_next_sample();
+}
+
+const std::vector<std::string>& Session::recent_rigs() const { return state_->recent_rigs; }
 bool Session::palette_open() const { return state_->palette_open; }
 void Session::close_palette() { state_->palette_open = false; }
 FileWish Session::file_wish() const { return state_->file_wish; }
@@ -307,6 +320,7 @@ bool Session::wants_to_quit() const { return state_->quitting; }
 
 std::vector<Finding> Session::findings() const {
   std::vector<Finding> findings = state_->asset_findings;
+  findings.insert(findings.end(), state_->rig_findings.begin(), state_->rig_findings.end());
   if (const auto known = checked()) findings.insert(findings.end(), known->findings.begin(), known->findings.end());
   return findings;
 }

@@ -16,6 +16,7 @@
 #include "editor/rig/rig_link.h"
 #include "editor/session/command.h"
 #include "editor/session/log.h"
+#include "editor/session/sample_cards.h"
 #include "editor/session/selection.h"
 #include "editor/session/task.h"
 #include "editor/session/view_state.h"
@@ -80,6 +81,7 @@ class Session {
   const RigLink& rig() const;
   const Log& log() const;
   const std::vector<Task>& tasks() const;
+  void cancel_task(int id);
 
   /// The last thing to tell the person in passing, with when it was said; empty: nothing.
   const std::optional<LogLine>& notice() const;
@@ -92,6 +94,11 @@ class Session {
   // The start screen's.
   const std::vector<std::filesystem::path>& recent() const;
   const std::vector<Recovery>& left_behind() const;
+  const std::vector<SampleCard>& sample_cards() const;
+  /// Draws the pictures of the samples behind the window, one after the other, while nothing is open.
+  void want_sample_pictures();
+
+  const std::vector<std::string>& recent_rigs() const;
 
   bool palette_open() const;
   void close_palette();

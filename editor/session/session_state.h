@@ -13,6 +13,7 @@
 #include "editor/preview/preview.h"
 #include "editor/rig/rig_link.h"
 #include "editor/session/jobs.h"
+#include "editor/session/sample_cards.h"
 #include "editor/session/session.h"
 
 namespace focalstage {
@@ -40,6 +41,10 @@ struct Session::State {
   std::filesystem::path clipboard_folder;  ///< of the project they come from
   std::vector<std::filesystem::path> recent;
   std::vector<Recovery> left_behind;
+  std::vector<std::string> recent_rigs;
+  std::vector<SampleCard> sample_cards;
+  std::size_t samples_drawn = 0;
+  bool drawing_samples = false;
 
   bool dragging = false;
   bool drag_has_step = false;
@@ -48,6 +53,10 @@ struct Session::State {
   std::uint64_t staged_revision = 0;
   int staged_frame = -1;
   std::vector<Finding> asset_findings;
+  std::vector<Finding> rig_findings;  ///< where the project is not made for the rig that is there
+  std::uint64_t rig_checked_revision = 0;
+  RigDescription rig_checked;
+  std::string rig_fault_said;
 
   glm::ivec2 eye_size_px{400, 300};
   std::optional<FocusQuestion> focus_question;
@@ -90,6 +99,8 @@ struct Session::State {
   void restage();
   void fit_views();
   void wish_preview();
+  /// The picture of the next sample that has none yet.
+  void draw_next_sample();
 };
 
 struct SessionAccess {

@@ -11,6 +11,7 @@ struct Task {
   std::string title;    ///< "Import rabbit.glb"
   double share = -1.0;  ///< done, 0..1; negative: nobody knows
   std::string detail;   ///< "12 of 30 frames"
+  bool quiet = false;   ///< not worth a person's notice
 };
 
 /// Something to decide before the editor goes on. The first choice is the default, the last is "Cancel".

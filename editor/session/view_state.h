@@ -55,6 +55,8 @@ struct ViewState {
 
   std::optional<Thing> renaming;  ///< whose name is being typed in the outline
 
+  std::string bottom_tab = "findings";  ///< the panel shown below the views
+
   bool operator==(const ViewState&) const = default;
 };
 

@@ -144,10 +144,14 @@ bool Editor::close_popup() {
 
 void Editor::follow_shortcuts() {
   const ImGuiIO& io = ImGui::GetIO();
-  if (io.WantTextInput || session_.question() || close_popup()) return;
+  const bool asked =
+      session_.question() != nullptr || session_.file_wish() != FileWish::none || session_.palette_open();
+  const bool popup = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+  const bool elsewhere = io.WantTextInput || asked || (!asked && close_popup()) || popup;
   for (const KeyChord& chord : window_->input().pressed()) {
     for (const Command& command : commands()) {
       if (command.shortcut.empty() || !same_chord(chord, command.shortcut)) continue;
+      if (elsewhere && command.id != "rig.blackout") break;  // darkness waits for no dialog
       (void)session_.run(command.id);
       break;
     }

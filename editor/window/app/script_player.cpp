@@ -133,6 +133,8 @@ Status ScriptPlayer::act(const WaitFor& step) {
     switch (step.what) {
       case WaitFor::What::compile:
         return !session.compiling();
+      case WaitFor::What::push:
+        return !session.rig().status().pushing;
       case WaitFor::What::tasks:
         return session.tasks().empty();
       case WaitFor::What::rig:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "editor/session/session.h"
 #include "editor/window/app/frame_painter.h"
 #include "editor/window/base/chips.h"
 #include "editor/window/base/icons.h"
@@ -193,14 +194,14 @@ void Workbench::draw_bottom(Session& session, const PaneRect& rect) {
   if (ImGui::Begin("panel/bottom", nullptr, fixed_window)) {
     Panel* shown = nullptr;
     for (const auto& panel : panels_) {
-      if (panel->place() == PanelPlace::bottom && (shown == nullptr || panel->name() == bottom_tab_)) {
+      if (panel->place() == PanelPlace::bottom && (shown == nullptr || panel->name() == session.view().bottom_tab)) {
         shown = panel.get();
       }
     }
     for (const auto& panel : panels_) {
       if (panel->place() != PanelPlace::bottom) continue;
       const NameScope scope("tabs");
-      if (tab(panel->title(), panel->badge(session), panel.get() == shown)) bottom_tab_ = panel->name();
+      if (tab(panel->title(), panel->badge(session), panel.get() == shown)) session.view().bottom_tab = panel->name();
       ImGui::SameLine(0.0f, px(4));
     }
     ImGui::NewLine();

@@ -66,7 +66,6 @@ class Workbench {
   Layout layout_;
   std::optional<Splitter::Kind> moving_;
   std::optional<int> fill_press_;
-  std::string bottom_tab_;
   std::size_t next_view_ = 0;
   bool unsettled_ = true;
 };

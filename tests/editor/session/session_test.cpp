@@ -10,6 +10,8 @@
 #include <set>
 #include <thread>
 
+#include <glm/geometric.hpp>
+
 #include "editor/session/edits.h"
 #include "io/files/files.h"
 #include "io/image/png.h"
@@ -194,6 +196,33 @@ TEST_CASE("copies, groups, hides and locks; undo takes all of it back") {
   while (session.run("edit.redo").ok()) {
   }
   CHECK(session.project().objects.size() == 6);
+}
+
+TEST_CASE("things are aligned, put at one distance and dropped, each as one step") {
+  const Home home;
+  Session session([] {});
+  open_sample(session, "first-light");
+  session.update(now_s());
+  session.select({{"objects", "rabbit"}});
+  CHECK_FALSE(session.run("edit.align").ok());
+  // The screen is upright: only what is above its upper edge could come to rest on it.
+  CHECK(session.run("edit.drop").fault().code == "session.no-surface");
+  REQUIRE(session.run("edit.drop-along-sight").ok());
+  const Object& rabbit = *object_named(session.project(), "rabbit");
+  CHECK(rabbit.placement.pose.position_m.z < -0.5);
+  CHECK(rabbit.placement.pose.position_m.z > -0.6);
+  REQUIRE(session.run("add.sphere").ok());
+  session.select({{"objects", "sphere"}, {"objects", "rabbit"}});
+  REQUIRE(session.run("edit.align", args({{"axis", "y"}, {"to", "low"}})).ok());
+  REQUIRE(session.run("edit.same-distance").ok());
+  const auto distance = [&](const char* name) {
+    return glm::length(object_named(session.project(), name)->placement.pose.position_m);
+  };
+  CHECK(distance("sphere") == doctest::Approx(distance("rabbit")).epsilon(1e-9));
+  CHECK(session.document().history().place() == 4);
+  const double before = session.view().camera.distance_m;
+  REQUIRE(session.run("view.zoom-selection").ok());
+  CHECK(session.view().camera.distance_m < before);
 }
 
 TEST_CASE("closing with unsaved edits asks, and saving an untitled project asks for its place") {
