@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -154,6 +155,7 @@ void RoomHands::begin(RoomFrame& frame, const glm::dvec2& pixel) {
   start_px_ = pixel;
   last_px_ = pixel;
   typed_.clear();
+  asked_.clear();
   amount.clear();
   done_by_keys_ = false;
   made_step_ = false;
@@ -193,7 +195,18 @@ void RoomHands::leave_press(RoomFrame& frame, const glm::dvec2& pixel) {
   drag_handle(frame, pixel);
 }
 
+/// Whether pointer, typed numbers or held keys differ from when this was last asked.
+bool RoomHands::is_news(const glm::dvec2& pixel) {
+  const ImGuiIO& io = ImGui::GetIO();
+  std::string asks = fixed_text(pixel.x, 2) + " " + fixed_text(pixel.y, 2) + (io.KeyShift ? " shift " : " ") +
+                     (io.KeyCtrl ? "ctrl " : "") + typed_.text();
+  const bool differs = asks != asked_;
+  asked_ = std::move(asks);
+  return differs;
+}
+
 void RoomHands::drag_handle(RoomFrame& frame, const glm::dvec2& pixel) {
+  if (!is_news(pixel)) return;
   const DragWish wish = wish_of(frame.session.view());
   const Dragged dragged =
       typed_.empty() ? drag_to(handle_drag_, pixel, wish) : drag_by(handle_drag_, typed_.numbers(), wish);
@@ -207,6 +220,7 @@ void RoomHands::drag_handle(RoomFrame& frame, const glm::dvec2& pixel) {
 }
 
 void RoomHands::drag_depth(RoomFrame& frame, const glm::dvec2& pixel) {
+  if (!is_news(pixel)) return;
   const bool snap = frame.session.view().snap != ImGui::GetIO().KeyCtrl;
   double vergence_d = vergence_dragged_d(depth_drag_, pixel, snap ? depth_snap_d : 0.0);
   const std::vector<double> numbers = typed_.numbers();
