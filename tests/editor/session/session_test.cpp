@@ -1,12 +1,14 @@
 #include "editor/session/session.h"
 
 #include <doctest/doctest.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <set>
 #include <thread>
 
@@ -70,6 +72,17 @@ std::set<std::string> codes(const Session& session) {
   std::set<std::string> found;
   for (const Finding& finding : session.findings()) found.insert(finding.code);
   return found;
+}
+
+void kill_runtime_with(const std::string& store) {
+  for (const auto& entry : fs::directory_iterator("/proc")) {
+    std::ifstream in(entry.path() / "cmdline", std::ios::binary);
+    const std::string line{std::istreambuf_iterator<char>(in), {}};
+    if (line.starts_with('/') && line.find("focalstage-runtime") != std::string::npos &&
+        line.find(store) != std::string::npos) {
+      kill(std::atoi(entry.path().filename().c_str()), SIGKILL);
+    }
+  }
 }
 
 void open_sample(Session& session, const char* name) {
@@ -317,4 +330,12 @@ TEST_CASE("push to a simulated rig, play, live, blackout") {
   CHECK_MESSAGE(shown, (session.rig().status().fault ? describe(*session.rig().status().fault)
                                                      : session.rig().status().state.state));
   CHECK(session.rig().status().edit_to_light_ms > 0.0);
+
+  // The runtime dies while it is live: the session says so, goes on, and is live again on a new one.
+  const std::string first = session.rig().status().address;
+  kill_runtime_with((home.path / "state").string());
+  REQUIRE(wait(session, [&] { return session.rig().status().address != first && session.rig().status().live; }));
+  REQUIRE(session.edit("Pupils", {set_edit({"viewer", ""}, "interpupillary_mm", Value(61.0))}).ok());
+  CHECK(std::any_of(session.log().begin(), session.log().end(),
+                    [](const LogLine& line) { return line.kind == LogLine::Kind::fault; }));
 }
