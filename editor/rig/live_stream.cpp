@@ -34,6 +34,7 @@ Status LiveStream::start(RigClient& rig, const LiveWish& wish) {
   if (!link) return link.fault();
   link_ = std::move(*link);
   sent_ = wish;
+  compiled_ = ready_ = false;
   return {};
 }
 
@@ -61,7 +62,9 @@ bool LiveStream::take_answers(RigStatus& status) {
   if (!link_) return false;
   const std::vector<LiveAnswer> answers = link_->poll();
   for (const LiveAnswer& answer : answers) {
-    if (const auto* appeared = std::get_if<LiveAppeared>(&answer)) {
+    if (std::holds_alternative<LiveCompiled>(answer)) {
+      ready_ = !std::exchange(compiled_, true) || ready_;
+    } else if (const auto* appeared = std::get_if<LiveAppeared>(&answer)) {
       status.live_revision = appeared->revision;
       status.edit_to_light_ms = appeared->edit_to_light_ms;
       status.fault.reset();

@@ -126,6 +126,8 @@ void RigLink::State::stay_live() {
     const std::lock_guard lock(mutex);
     changed = stream.take_answers(status);
   }
+  // Live means light: what is compiled first is played, unless the rig is dark and waits for a go.
+  if (stream.take_ready()) tell(client->play());
   if (changed) wake();
 }
 

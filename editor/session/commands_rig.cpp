@@ -105,7 +105,6 @@ Status blackout(Session& session, const Value&) {
 Status live(Session& session, const Value& args) {
   const bool on = flag_or(args, "on", !session.rig().status().live_wanted);
   link(session).live(on);
-  if (on) link(session).play();
   return {};
 }
 
