@@ -9,6 +9,7 @@
 
 #include "editor/window/base/fonts.h"
 #include "editor/window/base/icons.h"
+#include "editor/window/base/im.h"
 #include "editor/window/base/list_row.h"
 #include "editor/window/base/number_text.h"
 #include "editor/window/base/theme.h"
@@ -61,11 +62,10 @@ bool combo_face(std::string_view name, std::string_view shown, const FieldStyle&
   const float text_y = min.y + ImGui::GetStyle().FramePadding.y;
   list.PushClipRect(min, {caret_x, max.y}, true);
   const std::uint32_t colour = style.tip.unavailable.empty() ? theme::text : theme::dim;
-  list.AddText({min.x + ImGui::GetStyle().FramePadding.x, text_y}, colour, shown.data(), shown.data() + shown.size());
+  draw_text(list, {min.x + ImGui::GetStyle().FramePadding.x, text_y}, colour, shown);
   list.PopClipRect();
   const std::string_view caret = icon("unfolded");
-  list.AddText(small_font(), small_font()->FontSize, {caret_x, text_y + px(1)}, theme::dim, caret.data(),
-               caret.data() + caret.size());
+  draw_text(list, *small_font(), {caret_x, text_y + px(1)}, theme::dim, caret);
   return pressed;
 }
 

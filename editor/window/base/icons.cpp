@@ -138,7 +138,7 @@ const Icon* find(std::string_view name) {
 }  // namespace
 
 std::string_view icon(std::string_view name) {
-  if (name.empty()) return {};
+  if (name.empty()) return "";
   const Icon* found = find(name);
   return found != nullptr ? found->glyph : "\xef\x84\x91";
 }

@@ -23,13 +23,12 @@ void draw_words(glm::vec2 min, glm::vec2 size, std::string_view label, const Lis
   float right = min.x + size.x - px(padding) - style.right_room_px;
   if (!style.icon.empty()) {
     const std::string_view glyph = icon(style.icon);
-    list.AddText({left, y}, enabled ? style.icon_colour : theme::faint, glyph.data(), glyph.data() + glyph.size());
+    draw_text(list, {left, y}, enabled ? style.icon_colour : theme::faint, glyph);
     left += px(icon_column);
   }
   if (!style.right.empty()) {
     right -= ImGui::CalcTextSize(style.right.data(), style.right.data() + style.right.size()).x;
-    list.AddText({right, y}, enabled ? theme::dim : theme::faint, style.right.data(),
-                 style.right.data() + style.right.size());
+    draw_text(list, {right, y}, enabled ? theme::dim : theme::faint, style.right);
     right -= px(12);
   }
   const std::string shown = elided(label, right - left);
@@ -85,10 +84,10 @@ bool tab(std::string_view label, std::string_view count, bool active) {
   const std::uint32_t fill = active ? theme::field : ImGui::IsItemHovered() ? theme::with_alpha(theme::field, 0.6) : 0;
   if (fill != 0) list.AddRectFilled(to_im(min), to_im(min + size), fill, px(4));
   const glm::vec2 at = min + glm::vec2(px(9), px(4));
-  list.AddText(to_im(at), active ? theme::text : theme::dim, label.data(), label.data() + label.size());
+  draw_text(list, to_im(at), active ? theme::text : theme::dim, label);
   if (!count.empty()) {
     const float offset = text_size.x - ImGui::CalcTextSize(count.data(), count.data() + count.size()).x;
-    list.AddText({at.x + offset, at.y}, theme::dim, count.data(), count.data() + count.size());
+    draw_text(list, {at.x + offset, at.y}, theme::dim, count);
   }
   return pressed;
 }

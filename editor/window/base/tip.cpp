@@ -13,6 +13,7 @@ namespace {
 constexpr float rest_s = 0.45f;
 
 void words(std::string_view text, std::uint32_t colour) {
+  if (text.empty()) text = "";
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(text.data(), text.data() + text.size());
   ImGui::PopStyleColor();

@@ -34,6 +34,7 @@ void dim_label(std::string_view label, const Tip& tip, float width_px) {
 
 void text_line(std::string_view text, std::uint32_t colour) {
   want_glyphs(text);
+  if (text.empty()) text = "";  // ImGui reads from the pointer, which an empty view may lack
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(text.data(), text.data() + text.size());
   ImGui::PopStyleColor();
@@ -93,12 +94,10 @@ bool section(std::string_view title, bool open_at_first) {
   see_last_item(title);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float y = min.y + ImGui::GetStyle().FramePadding.y;
-  list.AddText(strong_font(), strong_font()->FontSize, {min.x, y}, theme::text, title.data(),
-               title.data() + title.size());
+  draw_text(list, *strong_font(), {min.x, y}, theme::text, title);
   const std::string_view caret = icon(open ? "unfolded" : "folded");
   if (!open || ImGui::IsItemHovered()) {
-    list.AddText(small_font(), small_font()->FontSize, {min.x + size.x - px(18), y + px(1)}, theme::dim, caret.data(),
-                 caret.data() + caret.size());
+    draw_text(list, *small_font(), {min.x + size.x - px(18), y + px(1)}, theme::dim, caret);
   }
   return open;
 }

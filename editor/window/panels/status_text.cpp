@@ -44,12 +44,10 @@ bool status_text(std::string_view name, const StatusText& status) {
   const float y = min.y + ImGui::GetStyle().FramePadding.y;
   if (!status.icon.empty()) {
     const std::string_view glyph = icon(status.icon);
-    list.AddText({x, y}, status.icon_colour, glyph.data(), glyph.data() + glyph.size());
+    draw_text(list, {x, y}, status.icon_colour, glyph);
     x += px(icon_room);
   }
-  if (!status.text.empty()) {  // ImGui would measure a null text
-    list.AddText({x, y}, status.text_colour, status.text.data(), status.text.data() + status.text.size());
-  }
+  draw_text(list, {x, y}, status.text_colour, status.text);
   if (status.caret) {
     const std::string_view caret = icon("down");
     list.AddText(small_font(), std::round(small_font()->FontSize * 0.75f), {min.x + size.x - px(caret_room), y + px(3)},
