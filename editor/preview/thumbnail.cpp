@@ -9,7 +9,7 @@
 namespace focalstage {
 namespace {
 
-constexpr int divisor = 4;
+constexpr int divisor = 2;
 /// The thumbnail shares the machine with the window.
 constexpr int threads = 1;
 

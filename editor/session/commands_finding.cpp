@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "editor/session/command_list.h"
+#include "editor/session/edit_words.h"
 
 namespace focalstage {
 namespace {
@@ -29,13 +30,13 @@ Status remedy(Session& session, const Value& args) {
   const auto finding = finding_at(session, args);
   if (!finding) return finding.fault();
   if (finding->remedy.empty()) return Fault{"session.no-remedy", finding->code, "has no remedy that is known", ""};
-  return session.edit("Remedy " + finding->code, finding->remedy);
+  return session.edit(edit_words(finding->remedy, session.project()), finding->remedy);
 }
 
 /// The first finding that has one.
 Status remedy_first(Session& session, const Value&) {
   for (const Finding& finding : session.findings()) {
-    if (!finding.remedy.empty()) return session.edit("Remedy " + finding.code, finding.remedy);
+    if (!finding.remedy.empty()) return session.edit(edit_words(finding.remedy, session.project()), finding.remedy);
   }
   return {};
 }

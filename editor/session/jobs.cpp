@@ -15,6 +15,7 @@ void Jobs::start(std::string title, Work work, bool quiet) {
   const std::lock_guard lock(mutex_);
   Job& job = jobs_.emplace_back();
   job.task = {next_id_++, std::move(title), -1.0, {}, quiet};
+  shown_.push_back(job.task);
   job.thread = std::jthread([this, &job, work = std::move(work)](std::stop_token stop) {
     const Progress progress = [&](double share, const std::string& detail) {
       {

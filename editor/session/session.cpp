@@ -38,16 +38,19 @@ Project without_missing(const Project& project, const Assets& assets) {
 }  // namespace
 
 Session::State::State(std::function<void()> wake_up, UserFolders user_folders)
-    : wake(wake_up),
+    : wake([this, up = std::move(wake_up)] {
+        news = true;
+        up();
+      }),
       folders(std::move(user_folders)),
       recent(recent_projects(folders)),
       left_behind(recoveries(folders, recent)),
       recent_rigs(focalstage::recent_rigs(folders)),
       sample_cards(make_sample_cards()),
-      preview(wake_up),
-      reader(wake_up),
-      rig(wake_up, folders.state),
-      jobs(wake_up) {}
+      preview(wake),
+      reader(wake),
+      rig(wake, folders.state),
+      jobs(wake) {}
 
 void Session::State::say(LogLine::Kind kind, std::string text) {
   log.push_back({kind, text, now_s});
@@ -158,7 +161,10 @@ void Session::State::take(Document opened) {
 
 /// The room's camera and the eye's field such that everything is seen at first.
 void Session::State::fit_views() {
-  view.camera = fitted(RoomCamera{}, usual_pane_px, stage_bounds(*stage, {}, true));
+  const ViewState fresh;
+  view.camera = fresh.camera;
+  view.fov_deg = fresh.fov_deg;
+  if (!stage_bounds(*stage).empty()) view.camera = fitted(fresh.camera, usual_pane_px, stage_bounds(*stage, {}, true));
   double slope = 0.0;
   const Rigid viewer_from_world = stage->world_from_viewer.inverse();
   const auto include = [&](const std::vector<Drawable>& drawables) {
@@ -175,7 +181,7 @@ void Session::State::fit_views() {
     }
   };
   for (const StagedObject& object : stage->objects) include(object.drawables);
-  view.fov_deg = std::clamp(glm::degrees(2.0 * std::atan(1.1 * slope)), narrowest_deg, widest_deg);
+  if (slope > 0.0) view.fov_deg = std::clamp(glm::degrees(2.0 * std::atan(1.1 * slope)), narrowest_deg, widest_deg);
 }
 
 void Session::State::close_document() {
@@ -317,6 +323,7 @@ bool Session::wants_to_quit() const { return state_->quitting; }
 
 std::vector<Finding> Session::findings() const {
   std::vector<Finding> findings = state_->asset_findings;
+  findings.insert(findings.end(), state_->rig_findings.begin(), state_->rig_findings.end());
   if (const auto known = checked()) findings.insert(findings.end(), known->findings.begin(), known->findings.end());
   return findings;
 }

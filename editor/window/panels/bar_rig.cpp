@@ -4,6 +4,7 @@
 #include <string>
 
 #include "editor/session/session.h"
+#include "editor/window/base/fonts.h"
 #include "editor/window/base/im.h"
 #include "editor/window/base/widgets.h"
 #include "editor/window/panels/bar_part.h"
@@ -198,10 +199,22 @@ class BlackoutPart final : public BarPart {
  public:
   BarItem look(const Session&) override { return {{button_size("Blackout", style()).x}, {}}; }
   void draw(Session& session, std::size_t) override {
+    const glm::vec2 min = from_im(ImGui::GetCursorScreenPos());
     command_button(session, "rig.blackout", "Blackout", "Blackout", style());
+    if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) draw_above(session, min, from_im(ImGui::GetItemRectMax()));
   }
 
  private:
+  /// Menus and dialogs take the first click for themselves, and dim what is behind them: not this.
+  static void draw_above(Session& session, glm::vec2 min, glm::vec2 max) {
+    const bool under_hand = ImGui::IsMouseHoveringRect(to_im(min), to_im(max), false);
+    ImDrawList& list = *ImGui::GetForegroundDrawList();
+    list.AddRectFilled(to_im(min), to_im(max), under_hand ? theme::colour(0xCB3537) : theme::red_fill, px(4));
+    const glm::vec2 at = glm::floor(0.5f * (min + max - from_im(ImGui::CalcTextSize("Blackout"))));
+    list.AddText(ui_font(), ui_font()->FontSize, to_im(at), theme::colour(0xFFFFFF), "Blackout");
+    if (under_hand && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) (void)session.run("rig.blackout");
+  }
+
   static ButtonStyle style() {
     ButtonStyle style;
     style.look = ButtonLook::danger;

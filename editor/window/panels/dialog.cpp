@@ -27,8 +27,9 @@ bool begin_dialog(const char* id, const PaneRect& window, float width, float hei
   const ImGuiWindowFlags flags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                  ImGuiWindowFlags_NoSavedSettings |
                                  (high > 0.0f ? ImGuiWindowFlags_None : ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(8));
   const bool open = ImGui::BeginPopupModal(id, nullptr, flags);
-  ImGui::PopStyleVar();
+  ImGui::PopStyleVar(2);
   // The rest darkens over a few frames.
   if (open && ImGui::GetCurrentContext()->DimBgRatio < 1.0f) want_frame_within(1.0 / 60.0);
   return open;

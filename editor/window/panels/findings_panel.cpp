@@ -1,6 +1,7 @@
 #include "editor/window/panels/findings_panel.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -18,7 +19,8 @@ namespace {
 
 /// A finding in the words of the table.
 struct Row {
-  std::string name;    ///< of its widgets
+  std::string name;  ///< of its widgets
+  std::string message;
   std::string place;   ///< "rabbit", "Slice at 0.5 D"
   std::string amount;  ///< "0.72 D, allowed 0.6 D"
   std::string remedy;  ///< "Add a slice at 0.6 D"; empty: none is known
@@ -29,6 +31,12 @@ std::string amount_words(const Finding& finding) {
   const Amount& amount = *finding.amount;
   const std::string unit = amount.unit.empty() ? "" : " " + amount.unit;
   return words(amount.value) + unit + ", limit " + words(amount.limit) + unit;
+}
+
+/// Messages begin in lower case, as faults do; in a table they stand alone.
+std::string sentence(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
 }
 
 struct Mark {
@@ -45,9 +53,9 @@ Mark mark_of(Severity severity) {
 /// Where the columns of the table begin, for its width; those there is no room for have no width.
 struct Columns {
   explicit Columns(float width) {
-    code = width >= px(760) ? px(190) : 0.0f;
-    place = width >= px(640) ? px(150) : 0.0f;
-    amount = width >= px(980) ? px(180) : 0.0f;
+    code = width >= px(1000) ? px(190) : 0.0f;
+    place = width >= px(700) ? px(150) : 0.0f;
+    amount = width >= px(1200) ? px(180) : 0.0f;
     remedy = width >= px(560) ? std::floor(width * 0.28f) : px(70);
   }
   float code, place, amount, remedy;
@@ -87,8 +95,9 @@ class FindingsPanel final : public Panel {
     revision_ = session.revision();
     rows_.clear();
     for (const Finding& finding : findings_) {
-      rows_.push_back({finding.code + " " + finding.where, place_words(finding.where, session.project()),
-                       amount_words(finding), edit_words(finding.remedy, session.project())});
+      rows_.push_back({finding.code + " " + finding.where, sentence(finding.message),
+                       place_words(finding.where, session.project()), amount_words(finding),
+                       edit_words(finding.remedy, session.project())});
       want_glyphs(finding.message);
       want_glyphs(rows_.back().place);
       want_glyphs(rows_.back().remedy);
@@ -145,7 +154,7 @@ class FindingsPanel final : public Panel {
     column(finding.code, columns.code, theme::dim);
     column(row.place, columns.place, theme::text);
     const float right = min.x + size.x - columns.remedy - columns.amount;
-    column(finding.message, right - x, theme::text);
+    column(row.message, right - x, theme::text);
     column(row.amount, columns.amount, theme::dim);
   }
 
@@ -173,7 +182,7 @@ class FindingsPanel final : public Panel {
     const Finding& finding = findings_[index];
     const Row& row = rows_[index];
     ImGui::Indent(px(34));
-    paragraph(finding.message);
+    paragraph(row.message);
     std::string facts = finding.code + "   " + finding.where;
     if (!row.amount.empty()) facts += "   " + row.amount;
     paragraph(facts, theme::dim);

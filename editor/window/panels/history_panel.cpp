@@ -67,7 +67,7 @@ class HistoryPanel final : public Panel {
     style.icon_colour = index > place ? theme::faint : theme::dim;
     style.text_colour = index > place ? theme::dim : theme::text;
     style.right = number;
-    style.tip.help = index == place ? words : "";
+    if (index == place) style.tip.help = words;
     return list_row("step " + number, words, style).clicked;
   }
 

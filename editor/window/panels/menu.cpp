@@ -86,9 +86,10 @@ bool begin_submenu(std::string_view label, std::string_view icon_name, float wid
     ImGui::PushStyleColor(which, 0);
   }
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {px(8), px(6)});
+  ImGui::PushStyleColor(ImGuiCol_Text, theme::dim);
   const bool open = ImGui::BeginMenu(id.c_str());
+  ImGui::PopStyleColor(4);
   ImGui::PopStyleVar();
-  ImGui::PopStyleColor(3);
   if (!open) ImGui::SetCursorScreenPos({min.x, max.y + px(1)});
   return open;
 }

@@ -62,8 +62,7 @@ void draw_entry(const PaletteEntry& entry, const RowPlace& place, bool selected)
   ImGui::PushFont(small_font());
   const std::string shown = elided(beside, room);
   ImGui::PopFont();
-  list.AddText(small_font(), small_font()->FontSize, {left + title + px(14), y + px(1)},
-               selected ? theme::dim : theme::faint, shown.c_str());
+  list.AddText(small_font(), small_font()->FontSize, {left + title + px(14), y + px(1)}, theme::dim, shown.c_str());
 }
 
 class PalettePanel final : public Panel {
@@ -86,7 +85,9 @@ class PalettePanel final : public Panel {
     const float width = std::min(px(620), rect.size.x - px(24));
     const float top = std::floor(std::min(rect.size.y * 0.12f, px(120)));
     ImGui::SetNextWindowPos({std::floor(0.5f * (rect.size.x - width)), top});
-    ImGui::SetNextWindowSize({width, std::min(px(430), rect.size.y - top - px(12))});
+    const float rows = static_cast<float>(std::max<std::size_t>(rows_, 1)) * (ImGui::GetFontSize() + px(8));
+    const float wanted = rows + ImGui::GetFrameHeight() + px(24);
+    ImGui::SetNextWindowSize({width, std::min({wanted, px(430), rect.size.y - top - px(12)})});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {px(8), px(8)});
     if (ImGui::BeginPopup(popup, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoScrollbar)) {
       draw_inside(session, opening);
@@ -111,6 +112,7 @@ class PalettePanel final : public Panel {
     const TextChange change = text_field("query", query_, field);
     if (change.changed) chosen_ = 0;
     const std::vector<PaletteEntry> entries = palette_entries(session, query_);
+    rows_ = entries.size();
     const bool moved = follow_keys(entries.size());
     if (key_pressed(ImGuiKey_Escape)) return close(session);
     if (entries.empty()) {
@@ -173,6 +175,7 @@ class PalettePanel final : public Panel {
   bool was_open_ = false;
   std::string query_;
   std::size_t chosen_ = 0;
+  std::size_t rows_ = 20;  ///< that there were to show last
 };
 
 }  // namespace

@@ -42,8 +42,8 @@ std::vector<std::string> facts(const RigStatus& rig) {
   if (rig.phase == Phase::lost) lines.push_back("It is tried again until it answers or you disconnect.");
   if (rig.phase != Phase::connected) return lines;
   const RigState& state = rig.state;
-  lines.push_back(std::to_string(state.sweeps) + " sweeps, " + std::to_string(state.missed_exposures) +
-                  " exposures missed, " + std::to_string(state.late_sweeps) + " sweeps late");
+  lines.push_back("Sweeps: " + std::to_string(state.sweeps) + ", late: " + std::to_string(state.late_sweeps) +
+                  ", exposures missed: " + std::to_string(state.missed_exposures));
   if (state.temperature_c > 0.0) lines.push_back("Warmest part " + number_text(state.temperature_c, 0, "°C"));
   if (!state.holder.empty()) lines.push_back("Held by " + state.holder);
   return lines;

@@ -83,7 +83,7 @@ class StartPanel final : public Panel {
     open.icon = "folder";
     command_button(session, "file.open", "Open", "Open…", open);
     ImGui::Dummy({0.0f, px(2)});
-    paragraph("Or drop a project's folder here.", theme::faint);
+    paragraph("Or drop a project's folder here.", theme::dim);
     ImGui::Dummy({0.0f, px(10)});
   }
 
@@ -175,7 +175,7 @@ class StartPanel final : public Panel {
     if (right - left > px(40)) {
       ImGui::PushFont(small_font());
       const std::string shown = elided(folder, right - left);
-      ImGui::GetWindowDrawList()->AddText({left, min.y + px(4)}, theme::faint, shown.c_str());
+      ImGui::GetWindowDrawList()->AddText({left, min.y + px(4)}, theme::dim, shown.c_str());
       ImGui::PopFont();
     }
     return pressed;

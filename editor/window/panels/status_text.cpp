@@ -47,7 +47,9 @@ bool status_text(std::string_view name, const StatusText& status) {
     list.AddText({x, y}, status.icon_colour, glyph.data(), glyph.data() + glyph.size());
     x += px(icon_room);
   }
-  list.AddText({x, y}, status.text_colour, status.text.data(), status.text.data() + status.text.size());
+  if (!status.text.empty()) {  // ImGui would measure a null text
+    list.AddText({x, y}, status.text_colour, status.text.data(), status.text.data() + status.text.size());
+  }
   if (status.caret) {
     const std::string_view caret = icon("down");
     list.AddText(small_font(), std::round(small_font()->FontSize * 0.75f), {min.x + size.x - px(caret_room), y + px(3)},
