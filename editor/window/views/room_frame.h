@@ -17,10 +17,16 @@ namespace focalstage {
 struct RoomFrame {
   Session& session;
   RoomScene& scene;
-  const Stage& stage;
   RoomView view;
   PaneRect rect;
   double scale = 1.0;
+
+  /// The room as it stands now: a drag in this very frame may have moved things.
+  const Stage& stage() const {
+    static const Stage nothing;
+    return session.stage() ? *session.stage() : nothing;
+  }
+  const std::vector<Fixture>& fixtures() const { return scene.fixtures(session); }
 
   ImVec2 on_window(const glm::dvec2& pixel) const {
     return {rect.min.x + static_cast<float>(pixel.x), rect.min.y + static_cast<float>(pixel.y)};
@@ -28,7 +34,7 @@ struct RoomFrame {
   glm::dvec2 in_view(const ImVec2& window) const {
     return {static_cast<double>(window.x - rect.min.x), static_cast<double>(window.y - rect.min.y)};
   }
-  SightFrame sight() const { return sight_frame(session.project(), stage); }
+  SightFrame sight() const { return sight_frame(session.project(), stage()); }
   double time_s() const { return session.view().frame / session.project().frames.rate_hz; }
   /// By camera, not through an eye or a projector.
   bool has_camera() const { return session.view().look_through == LookThrough::nothing; }

@@ -86,7 +86,7 @@ std::optional<PickHit> RoomHands::pick(RoomFrame& frame, const glm::dvec2& pixel
                              (thing.list == "projectors" && through == LookThrough::projector);
     return !is_beholder && !locked(project, thing);
   };
-  return first_with_fixtures(frame.scene.picker(), frame.stage, frame.scene.fixtures(), ray_through(frame.view, pixel),
+  return first_with_fixtures(frame.scene.picker(), frame.stage(), frame.fixtures(), ray_through(frame.view, pixel),
                              may);
 }
 
@@ -100,14 +100,14 @@ void RoomHands::see_things(RoomFrame& frame) {
   }
   if (things.empty()) return;
   const ViewState& state = frame.session.view();
-  handle_frame = focalstage::handle_frame(state.space, things, frame.stage.world_from_viewer);
+  handle_frame = focalstage::handle_frame(state.space, things, frame.stage().world_from_viewer);
   handles = handle_shapes(state.tool, handle_frame, frame.view, frame.scale);
 }
 
 void RoomHands::see_depth(RoomFrame& frame) {
   const Thing* primary = frame.session.selection().primary();
   const StagedObject* object =
-      primary != nullptr && primary->list == "objects" ? staged_object(frame.stage, primary->name) : nullptr;
+      primary != nullptr && primary->list == "objects" ? staged_object(frame.stage(), primary->name) : nullptr;
   if (object == nullptr || locked(frame.session.project(), {"objects", object->name})) {
     depth.reset();
     depth_stage_.reset();
@@ -116,7 +116,7 @@ void RoomHands::see_depth(RoomFrame& frame) {
   if (depth && depth->object == object->name && depth_stage_ == frame.session.stage()) return;
   depth_stage_ = frame.session.stage();
   depth.reset();
-  const auto reading = read_depth(frame.session.project(), frame.stage, *object, frame.scene.picker());
+  const auto reading = read_depth(frame.session.project(), frame.stage(), *object, frame.scene.picker());
   if (!reading) return;
   depth = RoomDepth{object->name, *reading, depth_sheet(frame.sight(), *object, reading->accommodation_d)};
 }
@@ -147,7 +147,7 @@ void RoomHands::hold_handle(RoomFrame& frame, Handle handle, const glm::dvec2& p
   hold_ = Hold::handle;
   hot_handle = handle;
   handle_drag_ = drag_start(frame.session.view().tool, handle, handle_frame, frame.view, pixel,
-                            frame.stage.world_from_viewer, things);
+                            frame.stage().world_from_viewer, things);
 }
 
 void RoomHands::begin(RoomFrame& frame, const glm::dvec2& pixel) {
@@ -167,7 +167,7 @@ void RoomHands::begin(RoomFrame& frame, const glm::dvec2& pixel) {
   } else if (hot_handle && !things.empty()) {
     hold_handle(frame, *hot_handle, pixel);
   } else if (hot_sheet && depth && depth->sheet) {
-    const StagedObject* object = staged_object(frame.stage, depth->object);
+    const StagedObject* object = staged_object(frame.stage(), depth->object);
     if (object == nullptr) return;
     hold_ = Hold::depth;
     depth_drag_ =
@@ -329,7 +329,7 @@ void RoomHands::end(RoomFrame& frame, const glm::dvec2& pixel) {
     if (hold_ == Hold::box) {
       std::vector<Thing> found = ImGui::GetIO().KeyCtrl ? frame.session.selection().things : std::vector<Thing>{};
       for (const StagedName& name :
-           inside_box(frame.stage, frame.view, start_px_, pixel, unlocked_of(frame.session.project()))) {
+           inside_box(frame.stage(), frame.view, start_px_, pixel, unlocked_of(frame.session.project()))) {
         const Thing thing{name.list, name.name};
         if (std::ranges::find(found, thing) == found.end()) found.push_back(thing);
       }
@@ -348,9 +348,9 @@ void RoomHands::focus_here(RoomFrame& frame, const glm::dvec2& pixel) {
   const auto hit = pick(frame, pixel);
   if (!hit) return;
   double focus_d = 0.0;
-  const StagedObject* object = hit->thing.list == "objects" ? staged_object(frame.stage, hit->thing.name) : nullptr;
+  const StagedObject* object = hit->thing.list == "objects" ? staged_object(frame.stage(), hit->thing.name) : nullptr;
   const auto reading = object != nullptr
-                           ? read_depth(frame.session.project(), frame.stage, *object, frame.scene.picker())
+                           ? read_depth(frame.session.project(), frame.stage(), *object, frame.scene.picker())
                            : std::nullopt;
   const double axial_m = frame.sight().axial_m(hit->point_m);
   if (reading && object->depth.mode != DepthMode::placed) {

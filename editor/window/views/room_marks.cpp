@@ -32,7 +32,7 @@ std::string metres(double distance_m) { return fixed_text(distance_m, distance_m
 
 void draw_floor_marks(const RoomFrame& frame, RoomDrawing& drawing) {
   const Floor& floor = frame.scene.floor();
-  const Rigid& viewer = frame.stage.world_from_viewer;
+  const Rigid& viewer = frame.stage().world_from_viewer;
   glm::dvec3 ahead = viewer.direction({0.0, 0.0, -1.0});
   ahead.y = 0.0;
   if (glm::length(ahead) < 0.1) return;  // looks at floor or ceiling
@@ -43,7 +43,7 @@ void draw_floor_marks(const RoomFrame& frame, RoomDrawing& drawing) {
     if (at_m.x < floor.low_m.x || at_m.x > floor.high_m.x || at_m.z < floor.low_m.y || at_m.z > floor.high_m.y) break;
     const glm::dvec3 way = at_m - frame.view.world_from_camera.position_m;
     const Ray sight{frame.view.world_from_camera.position_m, glm::normalize(way)};
-    const auto before = frame.scene.picker().first(frame.stage, sight);
+    const auto before = frame.scene.picker().first(frame.stage(), sight);
     if (before && before->distance_m < glm::length(way)) continue;  // hidden
     const glm::dvec3 side = 0.03 * glm::cross(ahead, glm::dvec3(0.0, 1.0, 0.0));
     drawing.line(at_m - side, at_m + side, theme::with_alpha(theme::dim, 0.8), 1.5);
@@ -55,12 +55,12 @@ void draw_floor_marks(const RoomFrame& frame, RoomDrawing& drawing) {
 
 void draw_gaze(const RoomFrame& frame, RoomDrawing& drawing) {
   if (!frame.has_camera()) return;
-  const PerEye<Eye> eyes = eyes_of(frame.stage.world_from_viewer, frame.stage.interpupillary_m,
+  const PerEye<Eye> eyes = eyes_of(frame.stage().world_from_viewer, frame.stage().interpupillary_m,
                                    frame.session.project().glasses.lens_to_pupil_mm * 1e-3);
   for (const Side side : both_sides) {
     const Rigid world_from_eye = eyes[side].eye_from_world.inverse();
     const Ray gaze{world_from_eye.position_m, world_from_eye.direction({0.0, 0.0, -1.0})};
-    const auto hit = frame.scene.picker().first_surface(frame.stage, gaze);
+    const auto hit = frame.scene.picker().first_surface(frame.stage(), gaze);
     const double to_m = hit ? hit->distance_m : gaze_without_surface_m;
     drawing.dashes(gaze.at(0.03), gaze.at(to_m), theme::with_alpha(theme::text, 0.38));
     const auto end = hit ? pixel_of(frame.view, hit->point_m) : std::nullopt;
@@ -84,10 +84,10 @@ void draw_frusta(const RoomFrame& frame, RoomDrawing& drawing) {
       const glm::dvec2 tangent = tangent_of_pixel(model, corners[i]);
       const Ray ray{model.world_from_projector.position_m,
                     model.world_from_projector.direction(glm::normalize(glm::dvec3(tangent, -1.0)))};
-      const auto hit = frame.scene.picker().first_surface(frame.stage, ray);
+      const auto hit = frame.scene.picker().first_surface(frame.stage(), ray);
       // Beside the surfaces: as far as those that the middle meets.
       const auto middle = frame.scene.picker().first_surface(
-          frame.stage, {ray.origin_m, model.world_from_projector.direction({0, 0, -1})});
+          frame.stage(), {ray.origin_m, model.world_from_projector.direction({0, 0, -1})});
       const double to_m =
           hit ? hit->distance_m
               : (middle ? middle->distance_m : ray_without_surface_m) * std::sqrt(1.0 + glm::dot(tangent, tangent));

@@ -60,7 +60,7 @@ std::uint32_t lit(std::uint32_t colour) {
 void draw_names(const RoomFrame& frame, const RoomHands& hands, RoomDrawing& drawing) {
   const Selection& selection = frame.session.selection();
   const auto name_it = [&](const StagedName& thing, std::uint32_t colour) {
-    if (const auto pixel = above(frame, drawables_of(frame.stage, frame.scene.fixtures(), thing))) {
+    if (const auto pixel = above(frame, drawables_of(frame.stage(), frame.fixtures(), thing))) {
       drawing.label(*pixel, title_of({thing.list, thing.name}), colour);
     }
   };
@@ -74,7 +74,7 @@ void draw_names(const RoomFrame& frame, const RoomHands& hands, RoomDrawing& dra
   if (hands.hot_thing && !selection.has({hands.hot_thing->list, hands.hot_thing->name})) {
     name_it(*hands.hot_thing, theme::text);
   }
-  for (const StagedSurface& surface : frame.stage.surfaces) {
+  for (const StagedSurface& surface : frame.stage().surfaces) {
     if (selection.has({"surfaces", surface.name})) continue;
     if (hands.hot_thing == StagedName{"surfaces", surface.name}) continue;
     if (named++ < most_names) name_it({"surfaces", surface.name}, theme::dim);
@@ -95,7 +95,7 @@ void draw_depth(const RoomFrame& frame, const RoomHands& hands, RoomDrawing& dra
       whole = pixel.has_value();
       if (whole) corners[i] = frame.on_window(*pixel);
     }
-    drawing.dashes(frame.stage.world_from_viewer.position_m, sheet.centre_m, theme::with_alpha(colour, 0.45));
+    drawing.dashes(frame.stage().world_from_viewer.position_m, sheet.centre_m, theme::with_alpha(colour, 0.45));
     if (whole) {
       drawing.list().AddConvexPolyFilled(corners.data(), 4, theme::with_alpha(colour, hands.hot_sheet ? 0.16 : 0.08));
       drawing.list().AddPolyline(corners.data(), 4, theme::with_alpha(colour, hands.hot_sheet ? 1.0 : 0.75),

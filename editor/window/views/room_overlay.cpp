@@ -40,7 +40,7 @@ const std::vector<Outline>& RoomOverlay::traced(const RoomFrame& frame, const St
   std::erase_if(traced_, [&](const Traced& known) {
     return known.thing == thing || known.stage != stage || known.view != frame.view;
   });
-  const std::vector<Drawable> drawables = frame.scene.light(drawables_of(frame.stage, frame.scene.fixtures(), thing));
+  const std::vector<Drawable> drawables = frame.scene.light(drawables_of(frame.stage(), frame.fixtures(), thing));
   traced_.push_back({stage, frame.view, thing, outlines(frame.view, drawables, frame.scale)});
   return traced_.back().lines;
 }

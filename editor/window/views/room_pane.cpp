@@ -44,8 +44,6 @@ void RoomPane::render(const Session& session, glm::ivec2 size_px, double scale) 
 
 void RoomPane::draw(Session& session, const PaneRect& rect) {
   if (!scene_) return;
-  static const Stage nothing;
-  const std::shared_ptr<const Stage> stage = session.stage();
   draw_picture(scene_->picture(), rect.min, rect.size);
   const glm::ivec2 size_px(rect.size + 0.5f);
   if (size_px.x < 1 || size_px.y < 1) return;
@@ -54,12 +52,12 @@ void RoomPane::draw(Session& session, const PaneRect& rect) {
       "picture", {rect.size.x, rect.size.y},
       ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight | ImGuiButtonFlags_MouseButtonMiddle);
   ImGui::SetItemAllowOverlap();  // chips lie over it
-  RoomFrame frame{session, *scene_, stage ? *stage : nothing, room_view(session, size_px), rect, ui_scale()};
+  RoomFrame frame{session, *scene_, room_view(session, size_px), rect, ui_scale()};
   hands_.follow(frame, ImGui::IsItemHovered(), ImGui::IsItemActive());
   frame.view = room_view(session, size_px);  // the hand may have moved it
-  if (frame.view != seen_view_ || stage != seen_stage_) {
+  if (frame.view != seen_view_ || session.stage() != seen_stage_) {
     seen_view_ = frame.view;
-    seen_stage_ = stage;
+    seen_stage_ = session.stage();
     moved_at_ = Clock::now();
   }
   overlay_.draw(frame, hands_);

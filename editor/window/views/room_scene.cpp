@@ -96,12 +96,21 @@ void RoomScene::take_objects(const Session& session, const Project& project, con
                    tint ? tint_of(project, stage, object, i, shown) : no_tint);
     }
   }
-  for (const Fixture& fixture : fixtures_) {
+  for (const Fixture& fixture : fixtures(session)) {
     for (std::size_t i = 0; i < fixture.drawables.size(); ++i) {
       actors_.show(meshes_, fixture.thing, i, fixture.drawables[i], no_tint);
     }
   }
   actors_.end();
+}
+
+const std::vector<Fixture>& RoomScene::fixtures(const Session& session) {
+  if (session.stage() && (session.stage() != fixed_stage_ || session.revision() != fixed_revision_)) {
+    fixtures_ = focalstage::fixtures(session.project(), *session.stage());
+    fixed_stage_ = session.stage();
+    fixed_revision_ = session.revision();
+  }
+  return fixtures_;
 }
 
 void RoomScene::take(const Session& session) {
@@ -114,7 +123,6 @@ void RoomScene::take(const Session& session) {
   if (same_room && slices == taken_slices_ && tint == taken_tint_) return;
   if (!same_room) {
     picker_.keep_only(*stage);
-    fixtures_ = focalstage::fixtures(project, *stage);
     sheets_ = slice_sheets(project, *stage, picker_);
     if (!session.dragging()) floor_ = floor_below(rough_bounds(*stage));
     ground_.show(floor_);

@@ -34,7 +34,8 @@ class RoomScene {
   void finalize() { target_.finalize(); }
 
   Picker& picker() { return picker_; }
-  const std::vector<Fixture>& fixtures() const { return fixtures_; }
+  /// As they stand now; made again only when something has changed.
+  const std::vector<Fixture>& fixtures(const Session& session);
   const std::vector<SliceSheet>& sheets() const { return sheets_; }
   const Floor& floor() const { return floor_; }
 
@@ -67,6 +68,8 @@ class RoomScene {
   RoomSheets sheet_faces_;
   Picker picker_;
   std::vector<Fixture> fixtures_;
+  std::shared_ptr<const Stage> fixed_stage_;
+  std::uint64_t fixed_revision_ = 0;
   std::vector<SliceSheet> sheets_;
   Floor floor_;
   std::map<std::pair<std::string, std::size_t>, Tinted> tints_;
