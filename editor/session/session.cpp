@@ -85,12 +85,14 @@ void Session::State::restage() {
   }
   if (staged_revision == revision() && staged_frame == view.frame && stage) return;
   const std::vector<std::string> wanted = document->shelf().wanted(project());
-  if (!wanted.empty()) {
+  if (!wanted.empty() && !reading) {
+    reading = true;
     // Files are read behind the window; until then the rest of the room stands without them.
     jobs.start("Read " + wanted.front() + (wanted.size() > 1 ? " and others" : ""),
                [this, folder = document->folder(), wanted](const Jobs::Progress&, std::stop_token) -> Jobs::Finish {
                  auto read = std::make_shared<AssetShelf::Read>(AssetShelf::read(folder, wanted));
                  return [this, folder, read] {
+                   reading = false;
                    if (!document || document->folder() != folder) return;
                    document->shelf().put(std::move(*read));
                    staged_frame = -1;
