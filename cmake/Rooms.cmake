@@ -22,7 +22,7 @@ focalstage_room(io/assets       USES io/image io/files core/scene core/mesh PRIV
 focalstage_room(io/show         USES io/project io/assets io/files core/schedule core/compile core/stage
                                 PRIVATE_LIBS hdf5::hdf5 deflate::deflate TBB::tbb)
 focalstage_room(io/export       USES io/show io/image io/files      PRIVATE_LIBS TBB::tbb)
-focalstage_room(io/protocol     USES io/project io/assets io/json io/files core/compile core/scene)
+focalstage_room(io/protocol     USES io/project io/assets io/json io/files core/check core/compile core/scene)
 
 # devices: the rig; drivers see only core
 focalstage_room(devices/sim     USES core/base)

@@ -8,10 +8,10 @@
 
 namespace focalstage {
 
-// The innermost loops, over plain arrays, eight samples at a time. The same source is compiled for x86-64-v2 and for
-// AVX2 (kernel_portable.cpp, kernel_avx2.cpp); both do the same operations in the same order, so their results are the
-// same bits. All positions are relative to a tile's origin in the tangent plane: there single precision is a millionth
-// of a pixel.
+// The innermost loops, over plain arrays, as many samples at a time as a register holds. The same source is compiled
+// for x86-64-v2 and for AVX2 (kernel_portable.cpp, kernel_avx2.cpp); both do the same operations in the same order, so
+// their results are the same bits. All positions are relative to a tile's origin in the tangent plane: there single
+// precision is a millionth of a pixel.
 
 /// What the projector's samples of one tile meet, as one eye sees it. NaN positions where it sees nothing.
 struct alignas(32) TileHits {

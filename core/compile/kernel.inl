@@ -1,15 +1,20 @@
-// Compiled twice, under two names and for two instruction sets; see kernel.h. Nothing from the standard library may be
-// instantiated here: the linker could pick the copy made for the larger instruction set for everyone.
+// Compiled twice, under two names and for two instruction sets, with vectors as long as each has registers for (a
+// compiler takes comparisons of longer ones apart, element by element); see kernel.h. Nothing from the standard library
+// may be instantiated here: the linker could pick the copy made for the larger instruction set for everyone.
 
 namespace focalstage {
 namespace {
 
-using Floats = float __attribute__((vector_size(32)));
-using Ints = std::int32_t __attribute__((vector_size(32)));
-using Doubles = double __attribute__((vector_size(32)));
-using FourFloats = float __attribute__((vector_size(16)));
+constexpr int lanes = FOCALSTAGE_LANES;
+constexpr int half = lanes / 2;
 
-constexpr int lanes = tile_side;
+using Floats = float __attribute__((vector_size(4 * lanes)));
+using Ints = std::int32_t __attribute__((vector_size(4 * lanes)));
+using Doubles = double __attribute__((vector_size(8 * half)));
+using HalfFloats = float __attribute__((vector_size(4 * half)));
+using HalfInts = std::int32_t __attribute__((vector_size(4 * half)));
+using FourDoubles = double __attribute__((vector_size(32)));
+using FourFloats = float __attribute__((vector_size(16)));
 
 Floats load(const float* from) { return *reinterpret_cast<const Floats*>(from); }
 Ints load(const std::int32_t* from) { return *reinterpret_cast<const Ints*>(from); }
@@ -26,10 +31,10 @@ constexpr Box nothing{__builtin_inff(), __builtin_inff(), -__builtin_inff(), -__
 
 /// Bounds of one row. A NaN never compares, so samples that see nothing do not count.
 void bound_row(TileLooks& looks, int row) {
-  const float* const x = looks.x + row * lanes;
-  const float* const y = looks.y + row * lanes;
+  const float* const x = looks.x + row * tile_side;
+  const float* const y = looks.y + row * tile_side;
   Box box = nothing;
-  for (int i = 0; i < lanes; ++i) {
+  for (int i = 0; i < tile_side; ++i) {
     box.min_x = x[i] < box.min_x ? x[i] : box.min_x;
     box.max_x = x[i] > box.max_x ? x[i] : box.max_x;
     box.min_y = y[i] < box.min_y ? y[i] : box.min_y;
@@ -46,12 +51,13 @@ void place(const TileHits& hits, double origin_x, double origin_y, float bend, f
   const float oy = static_cast<float>(origin_y);
   Box all = nothing;
   for (int row = 0; row < tile_side; ++row) {
-    const int at = row * lanes;
-    const Floats x = load(hits.x + at);
-    const Floats y = load(hits.y + at);
-    const Floats stretch = stretch_less_one(load(hits.surface_m + at), bend, lens_to_pupil_m);
-    store(out.x + at, x + (ox + x) * stretch);
-    store(out.y + at, y + (oy + y) * stretch);
+    for (int at = row * tile_side; at < (row + 1) * tile_side; at += lanes) {
+      const Floats x = load(hits.x + at);
+      const Floats y = load(hits.y + at);
+      const Floats stretch = stretch_less_one(load(hits.surface_m + at), bend, lens_to_pupil_m);
+      store(out.x + at, x + (ox + x) * stretch);
+      store(out.y + at, y + (oy + y) * stretch);
+    }
     bound_row(out, row);
     if (out.row_min_x[row] < all.min_x) all.min_x = out.row_min_x[row];
     if (out.row_min_y[row] < all.min_y) all.min_y = out.row_min_y[row];
@@ -67,15 +73,19 @@ bool apart(const Box& a, const Box& b) {
   return !(a.min_x <= b.max_x && b.min_x <= a.max_x && a.min_y <= b.max_y && b.min_y <= a.max_y);
 }
 
+alignas(32) constexpr std::int32_t bit_of_row[tile_side] = {1, 2, 4, 8, 16, 32, 64, 128};
+
 /// The rows of a tile whose bounds meet a box, as a bit each.
 unsigned rows_touched(const TileLooks& looks, const Box& box) {
-  const Ints touched = (load(looks.row_min_x) <= box.max_x) & (load(looks.row_max_x) >= box.min_x) &
-                       (load(looks.row_min_y) <= box.max_y) & (load(looks.row_max_y) >= box.min_y);
-  using Words = std::int64_t __attribute__((vector_size(32)));
-  constexpr Ints bit_of_row = {1, 2, 4, 8, 16, 32, 64, 128};
-  const Words words = reinterpret_cast<Words>(touched & bit_of_row);
-  const std::int64_t both = (words[0] | words[1]) | (words[2] | words[3]);
-  return static_cast<unsigned>(both | both >> 32) & 0xffu;
+  using Words = std::int64_t __attribute__((vector_size(4 * lanes)));
+  std::int64_t bits = 0;
+  for (int first = 0; first < tile_side; first += lanes) {
+    const Ints touched = (load(looks.row_min_x + first) <= box.max_x) & (load(looks.row_max_x + first) >= box.min_x) &
+                         (load(looks.row_min_y + first) <= box.max_y) & (load(looks.row_max_y + first) >= box.min_y);
+    const Words words = reinterpret_cast<Words>(touched & load(bit_of_row + first));
+    for (int i = 0; i < half; ++i) bits |= words[i];
+  }
+  return static_cast<unsigned>(bits | bits >> 32) & 0xffu;
 }
 
 /// What stays the same for all triangles of a tile.
@@ -92,24 +102,26 @@ void cover_one(const ViewTriangle& triangle, const Box& bounds, std::int32_t ind
   unsigned rows = rows_touched(looks, box);
   if (rows == 0) return;
   // Moved to the tile's origin in double, so that single precision holds the small rest.
-  const Doubles& a = *reinterpret_cast<const Doubles*>(triangle.a);
-  const Doubles& b = *reinterpret_cast<const Doubles*>(triangle.b);
-  const Doubles& c = *reinterpret_cast<const Doubles*>(triangle.c);
+  const FourDoubles& a = *reinterpret_cast<const FourDoubles*>(triangle.a);
+  const FourDoubles& b = *reinterpret_cast<const FourDoubles*>(triangle.b);
+  const FourDoubles& c = *reinterpret_cast<const FourDoubles*>(triangle.c);
   const FourFloats per_x = __builtin_convertvector(a, FourFloats);
   const FourFloats per_y = __builtin_convertvector(b, FourFloats);
   const FourFloats rest = __builtin_convertvector(a * tile.origin_x + b * tile.origin_y + c, FourFloats);
   for (; rows != 0; rows &= rows - 1) {
-    const int first = __builtin_ctz(rows) * lanes;
-    const Floats x = load(looks.x + first);
-    const Floats y = load(looks.y + first);
-    const Ints inside = (per_x[0] * x + per_y[0] * y + rest[0] >= 0.0f) &
-                        (per_x[1] * x + per_y[1] * y + rest[1] >= 0.0f) &
-                        (per_x[2] * x + per_y[2] * y + rest[2] >= 0.0f);
-    const Floats r = per_x[3] * x + per_y[3] * y + rest[3];
-    const Floats best = load(out.inverse_m + first);
-    const Ints nearer = inside & (r > best) & (r <= tile.highest);
-    store(out.inverse_m + first, nearer ? r : best);
-    store(out.triangle + first, nearer ? Ints{} + index : load(out.triangle + first));
+    const int row = __builtin_ctz(rows) * tile_side;
+    for (int first = row; first < row + tile_side; first += lanes) {
+      const Floats x = load(looks.x + first);
+      const Floats y = load(looks.y + first);
+      const Ints inside = (per_x[0] * x + per_y[0] * y + rest[0] >= 0.0f) &
+                          (per_x[1] * x + per_y[1] * y + rest[1] >= 0.0f) &
+                          (per_x[2] * x + per_y[2] * y + rest[2] >= 0.0f);
+      const Floats r = per_x[3] * x + per_y[3] * y + rest[3];
+      const Floats best = load(out.inverse_m + first);
+      const Ints nearer = inside & (r > best) & (r <= tile.highest);
+      store(out.inverse_m + first, nearer ? r : best);
+      store(out.triangle + first, nearer ? Ints{} + index : load(out.triangle + first));
+    }
   }
 }
 
@@ -216,31 +228,28 @@ void add_even(const TileWeights& weights, float share, float level, float* light
   }
 }
 
-using FourInts = std::int32_t __attribute__((vector_size(16)));
-
 /// The largest whole number not above each value; values are within an int.
-FourInts whole(Doubles value) {
-  const FourInts towards_zero = __builtin_convertvector(value, FourInts);
-  return towards_zero + __builtin_convertvector(value < __builtin_convertvector(towards_zero, Doubles), FourInts);
+HalfInts whole(Doubles value) {
+  const HalfInts towards_zero = __builtin_convertvector(value, HalfInts);
+  return towards_zero + __builtin_convertvector(value < __builtin_convertvector(towards_zero, Doubles), HalfInts);
 }
 
 void add_checker(const CheckerPlanes& planes, const TileLooks& looks, double origin_x, double origin_y,
                  const TileWeights& weights, float share, float a, float b, float* light) {
-  constexpr int half = lanes / 2;
   for (int first = 0; first < tile_samples; first += half) {
-    const FourFloats local_x = *reinterpret_cast<const FourFloats*>(looks.x + first);
-    const FourFloats local_y = *reinterpret_cast<const FourFloats*>(looks.y + first);
+    const HalfFloats local_x = *reinterpret_cast<const HalfFloats*>(looks.x + first);
+    const HalfFloats local_y = *reinterpret_cast<const HalfFloats*>(looks.y + first);
     const Doubles x = __builtin_convertvector(local_x, Doubles) + origin_x;
     const Doubles y = __builtin_convertvector(local_y, Doubles) + origin_y;
     const Doubles per = 1.0 / (planes.common[0] * x + planes.common[1] * y + planes.common[2]);
-    const FourInts column = whole((planes.u[0] * x + planes.u[1] * y + planes.u[2]) * per);
-    const FourInts row = whole((planes.v[0] * x + planes.v[1] * y + planes.v[2]) * per);
-    const FourInts odd = ((column + row) & 1) != 0;
-    const FourFloats weight = *reinterpret_cast<const FourFloats*>(weights.weight + first);
-    const FourFloats level = odd ? FourFloats{} + b : FourFloats{} + a;
-    const FourFloats added =
-        weight > 0.0f ? weight * share * level : FourFloats{};  // elsewhere a look may meet nothing
-    FourFloats* const sum = reinterpret_cast<FourFloats*>(light + first);
+    const HalfInts column = whole((planes.u[0] * x + planes.u[1] * y + planes.u[2]) * per);
+    const HalfInts row = whole((planes.v[0] * x + planes.v[1] * y + planes.v[2]) * per);
+    const HalfInts odd = ((column + row) & 1) != 0;
+    const HalfFloats weight = *reinterpret_cast<const HalfFloats*>(weights.weight + first);
+    const HalfFloats level = odd ? HalfFloats{} + b : HalfFloats{} + a;
+    const HalfFloats added =
+        weight > 0.0f ? weight * share * level : HalfFloats{};  // elsewhere a look may meet nothing
+    HalfFloats* const sum = reinterpret_cast<HalfFloats*>(light + first);
     *sum = *sum + added;
   }
 }

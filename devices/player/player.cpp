@@ -128,10 +128,6 @@ void Player::advance() {
   if (sweeps_left_ > 0 && --sweeps_left_ == 0) state_ = PlayState::holding;
 }
 
-void Player::skip(std::uint64_t sweeps) {
-  for (std::uint64_t n = 0; n < sweeps && running(); ++n) advance();
-}
-
 bool Player::fetch(AskedSweep& sweep) {
   PreparedFrames& frames = *show_->frames;
   Result<PreparedFrames::Frame> frame = settings_.wait_for_frames ? frames.wait_for(frame_) : frames.get(frame_);

@@ -72,9 +72,6 @@ class Player {
   /// Gives the rig one sweep. Goes dark by itself where a limit is met or a frame can't be read.
   AskedSweep hand_over(double start_s);
 
-  /// Lets `sweeps` pass without giving the rig anything: it was too late for them.
-  void skip(std::uint64_t sweeps);
-
   PlayState state() const { return state_; }
   const std::optional<Fault>& fault() const { return fault_; }
   std::shared_ptr<const LoadedShow> show() const { return show_; }

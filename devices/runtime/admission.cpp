@@ -9,6 +9,7 @@
 #include "core/check/check.h"
 #include "core/check/rig_differences.h"
 #include "core/schedule/lens_response.h"
+#include "io/protocol/adopt.h"
 
 namespace focalstage {
 
@@ -36,19 +37,6 @@ Status without_errors(const Project& project, const ScheduleResult& schedule,
                  "correct the project and compile it again"};
   }
   return {};
-}
-
-RigValues values_of(const RigDescription& rig) {
-  RigValues values;
-  values.lens_response = rig.glasses.lens_response;
-  values.shutter_open_ms = rig.glasses.shutter_open_ms;
-  values.shutter_close_ms = rig.glasses.shutter_close_ms;
-  if (!rig.projectors.empty()) {
-    values.latency_ms = rig.projectors[0].latency_ms;
-    values.width_px = rig.projectors[0].width_px;
-    values.height_px = rig.projectors[0].height_px;
-  }
-  return values;
 }
 
 /// A periodic, uniformly sampled curve, straight between its samples.
@@ -117,7 +105,7 @@ Status within_limits(const SweepPlan& plan, const RigLimits& limits) {
 
 Status fits_rig(const ShowHeader& show, const Project& project, const RigDescription& rig) {
   std::string text;
-  for (const Finding& finding : rig_differences(project, values_of(rig))) {
+  for (const Finding& finding : rig_differences(project, rig_values_of(rig))) {
     text += finding.where + ": " + finding.message + "; ";
   }
   text += schedule_differences(show, rig);

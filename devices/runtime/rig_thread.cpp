@@ -7,8 +7,6 @@
 
 #include <spdlog/spdlog.h>
 
-#include "devices/runtime/detection.h"
-
 namespace focalstage {
 
 namespace {
@@ -18,7 +16,12 @@ PlayerSettings player_settings(const RigThreadSettings& settings) {
 }
 
 Fault missed_light() {
-  return {"rig.missed-light", "projector", "light was missed in more than one sweep within a second",
+  return {"rig.missed-light", "projector", "a sweep lacked light that was due",
+          "see what the slots report, then say go"};
+}
+
+Fault late_frame() {
+  return {"rig.missed-light", "player", "a sweep was not ready when it began",
           "see that nothing else keeps this machine busy, then say go"};
 }
 
@@ -87,26 +90,28 @@ void RigThread::run(const std::stop_token& stop) {
   }
 }
 
-/// A sweep that begins before it could be handed over stays dark, and is counted.
+/// A sweep that begins before it could be handed over stays dark, is counted, and is the last.
 bool RigThread::skip_if_late(double now) {
   if (now < next_start_s_) return false;
-  const double period_s = player_.period_s();
-  const double lost = std::floor((now - next_start_s_) / period_s) + 1.0;
-  const auto sweeps = static_cast<std::uint64_t>(lost);
+  const double lost = std::floor((now - next_start_s_) / player_.period_s()) + 1.0;
+  count_late(static_cast<std::uint64_t>(lost));
+  make_dark(late_frame());
+  return true;
+}
+
+void RigThread::count_late(std::uint64_t sweeps) {
   late_sweeps_ += sweeps;
   never_handed_over_ += sweeps * player_.show()->plan.trigger_s.size();
-  for (std::uint64_t n = 0; n < std::min<std::uint64_t>(sweeps, 2); ++n) {
-    note_faulty(next_start_s_ + static_cast<double>(n) * period_s);
-  }
-  player_.skip(sweeps);
-  next_start_s_ += lost * period_s;
-  return true;
 }
 
 void RigThread::hand_over_next() {
   AskedSweep sweep = player_.hand_over(next_start_s_);
-  if (sweep.missed) ++late_sweeps_;
   next_start_s_ += sweep.show->plan.period_s;
+  if (sweep.missed && player_.running()) {
+    count_late(1);
+    make_dark(late_frame());
+    return;
+  }
   ledger_.ask(std::move(sweep));
   if (player_.running()) return;
   on_time_ = false;
@@ -117,16 +122,7 @@ void RigThread::settle_until(double time_s) {
   sim_.run_until(time_s);
   ledger_.deliver(sim_.take_delivered());
   ledger_.settle_until(time_s);
-  for (const double sweep_s : ledger_.take_faulty_sweeps()) note_faulty(sweep_s);
-}
-
-/// One sweep without its light may be; a second one within the time in which the projector's status shows it is a
-/// doubt: below a steady picture lies flicker, which is worse than darkness.
-void RigThread::note_faulty(double sweep_s) {
-  faulty_sweeps_s_.push_back(sweep_s);
-  const double watched_s = detection_s(Doubt::projector_status, player_.period_s());
-  while (sweep_s - faulty_sweeps_s_.front() > watched_s) faulty_sweeps_s_.pop_front();
-  if (faulty_sweeps_s_.size() > 1 && player_.running()) make_dark(missed_light());
+  if (ledger_.take_faulty_sweeps() > 0 && player_.running()) make_dark(missed_light());
 }
 
 void RigThread::make_dark(const Fault& fault) {
@@ -184,7 +180,7 @@ Status RigThread::cue(const std::string& name) {
 
 Status RigThread::go() {
   const auto lock = take_turn();
-  faulty_sweeps_s_.clear();
+  (void)ledger_.take_faulty_sweeps();
   return player_.go();
 }
 

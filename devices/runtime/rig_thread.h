@@ -3,7 +3,6 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <memory>
 #include <mutex>
 #include <stop_token>
@@ -67,8 +66,8 @@ class RigThread {
   bool has_work() const;
   void hand_over_next();
   bool skip_if_late(double now_s);
+  void count_late(std::uint64_t sweeps);
   void settle_until(double time_s);
-  void note_faulty(double sweep_s);
   void make_dark(const Fault& fault);
   double now_s() const;
   Status command(Status (Player::*what)());
@@ -86,7 +85,6 @@ class RigThread {
   bool on_time_ = false;  ///< the timeline runs: the next sweep follows the one before
   std::uint64_t late_sweeps_ = 0;
   std::uint64_t never_handed_over_ = 0;
-  std::deque<double> faulty_sweeps_s_;
   std::jthread thread_;
 };
 

@@ -78,7 +78,7 @@ void SlotLedger::settle(const AskedSweep& sweep) {
   std::uint64_t missed = 0;
   for (std::size_t slot = 0; slot < slots_.size(); ++slot) missed += settle(sweep, slot) ? 0 : 1;
   missed_ += missed;
-  if (missed > 0) faulty_.push_back(sweep.start_s);
+  if (missed > 0) ++faulty_;
   if (missed == 0 && !std::exchange(seen_whole_, true) && show_->on_light) {
     show_->on_light(sweep.number, sweep.start_s);
   }
@@ -97,6 +97,6 @@ void SlotLedger::call_off_after(double time_s) {
   while (!asked_.empty() && asked_.back().start_s + asked_.back().show->plan.period_s > time_s) asked_.pop_back();
 }
 
-std::vector<double> SlotLedger::take_faulty_sweeps() { return std::exchange(faulty_, {}); }
+std::uint64_t SlotLedger::take_faulty_sweeps() { return std::exchange(faulty_, 0); }
 
 }  // namespace focalstage

@@ -35,8 +35,8 @@ class SlotLedger {
   const std::vector<SlotReport>& slots() const { return slots_; }
   std::uint64_t missed() const { return missed_; }
 
-  /// Starts of the sweeps settled since the last call in which light was missed.
-  std::vector<double> take_faulty_sweeps();
+  /// How many of the sweeps settled since the last call missed light.
+  std::uint64_t take_faulty_sweeps();
 
  private:
   void begin_show(const std::shared_ptr<const LoadedShow>& show);
@@ -50,7 +50,7 @@ class SlotLedger {
   std::deque<AskedSweep> asked_;
   std::deque<DeliveredExposure> delivered_;
   std::vector<SlotReport> slots_;
-  std::vector<double> faulty_;
+  std::uint64_t faulty_ = 0;
   std::uint64_t missed_ = 0;
 };
 

@@ -35,6 +35,15 @@ Project bare_room() {
   project.projectors[0].name = "main";
   project.projectors[0].pose.position_m = {0.0, 0.0, 0.3};
   project.slices.powers_d = {-1.0, -0.5, 0.0, 0.5, 1.0};
+  Light sun;
+  sun.name = "sun";
+  sun.direction = {-0.4, -0.6, -0.7};
+  sun.intensity = 0.6;
+  Light sky;
+  sky.name = "sky";
+  sky.kind = LightKind::sky;
+  sky.intensity = 0.2;
+  project.lights = {sun, sky};
   return project;
 }
 

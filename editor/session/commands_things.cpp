@@ -32,7 +32,6 @@ Status add_object(Session& session, const Value& args) {
   item.set("position_m", position ? *position : value_of(place));
   item.set("rotation_xyzw", value_of(upright));
   item.set("scale", one_metre ? 0.1 : 1.0);
-  item.set("appearance", Value(Value::Object{{"unlit", Value(Value::Array{1.0, 1.0, 1.0})}}));
   item.set("depth", Value(Value::Object{{"mode", "placed"}}));
   Status done = session.edit("Add " + name, {add_edit("objects", name, item)});
   if (done) session.select({{"objects", name}});

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "editor/session/session_state.h"
+#include "io/protocol/adopt.h"
 
 namespace focalstage {
 namespace {
@@ -95,6 +96,26 @@ void look_at_assets(Session::State& state) {
   }
 }
 
+/// What the link could not do is told once; a project made for another rig is a finding as long as it is.
+void look_at_rig(Session::State& state) {
+  const RigStatus rig = state.rig.status();
+  const std::string fault = rig.fault ? describe(*rig.fault) : std::string();
+  if (fault != state.rig_fault_said) {
+    state.rig_fault_said = fault;
+    if (!fault.empty()) state.say(LogLine::Kind::fault, fault);
+  }
+  const bool there = state.document && rig.phase == RigStatus::Phase::connected && !rig.description.projectors.empty();
+  if (!there) {
+    state.rig_findings.clear();
+    state.rig_checked_revision = 0;
+    return;
+  }
+  if (state.rig_checked_revision == state.revision() && state.rig_checked == rig.description) return;
+  state.rig_checked_revision = state.revision();
+  state.rig_checked = rig.description;
+  state.rig_findings = rig_differences(state.project(), rig_values_of(rig.description));
+}
+
 }  // namespace
 
 bool Session::update(double now_s) {
@@ -112,6 +133,7 @@ bool Session::update(double now_s) {
   }
   keep_safe(state);
   take_focus(state);
+  look_at_rig(state);
   state.tidy();
   state.restage();
   state.wish_preview();

@@ -96,7 +96,8 @@ void add_reading(PropertyRows& rows, const DepthReading& reading, bool with_acco
   }
   Property& conflict =
       show("conflict", reading.conflict_d, "Accommodation less vergence. Beyond half a dioptre it tires most people.");
-  conflict.value = Value(signed_text(reading.conflict_d, 2) + " D");
+  const std::string signed_d = signed_text(reading.conflict_d, 2);
+  conflict.value = Value((signed_d == "+0.00" ? "0.00" : signed_d) + " D");
   if (reading.tires()) conflict.tone = Property::Tone::red;
 }
 

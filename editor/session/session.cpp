@@ -161,7 +161,10 @@ void Session::State::take(Document opened) {
 
 /// The room's camera and the eye's field such that everything is seen at first.
 void Session::State::fit_views() {
-  view.camera = fitted(RoomCamera{}, usual_pane_px, stage_bounds(*stage, {}, true));
+  const ViewState fresh;
+  view.camera = fresh.camera;
+  view.fov_deg = fresh.fov_deg;
+  if (!stage_bounds(*stage).empty()) view.camera = fitted(fresh.camera, usual_pane_px, stage_bounds(*stage, {}, true));
   double slope = 0.0;
   const Rigid viewer_from_world = stage->world_from_viewer.inverse();
   const auto include = [&](const std::vector<Drawable>& drawables) {
@@ -178,7 +181,7 @@ void Session::State::fit_views() {
     }
   };
   for (const StagedObject& object : stage->objects) include(object.drawables);
-  view.fov_deg = std::clamp(glm::degrees(2.0 * std::atan(1.1 * slope)), narrowest_deg, widest_deg);
+  if (slope > 0.0) view.fov_deg = std::clamp(glm::degrees(2.0 * std::atan(1.1 * slope)), narrowest_deg, widest_deg);
 }
 
 void Session::State::close_document() {
@@ -320,6 +323,7 @@ bool Session::wants_to_quit() const { return state_->quitting; }
 
 std::vector<Finding> Session::findings() const {
   std::vector<Finding> findings = state_->asset_findings;
+  findings.insert(findings.end(), state_->rig_findings.begin(), state_->rig_findings.end());
   if (const auto known = checked()) findings.insert(findings.end(), known->findings.begin(), known->findings.end());
   return findings;
 }

@@ -63,6 +63,10 @@ struct Session::State {
   std::uint64_t staged_revision = 0;
   int staged_frame = -1;
   std::vector<Finding> asset_findings;
+  std::vector<Finding> rig_findings;  ///< where the project is not made for the rig that is there
+  std::uint64_t rig_checked_revision = 0;
+  RigDescription rig_checked;
+  std::string rig_fault_said;
 
   glm::ivec2 eye_size_px{400, 300};
   std::optional<FocusQuestion> focus_question;

@@ -5,8 +5,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/mesh/measure.h"
 #include "core/optics/vergence.h"
+#include "editor/tools/known_bounds.h"
 #include "editor/tools/nearest_on_line.h"
 
 namespace focalstage {
@@ -40,7 +40,7 @@ double axial_share(const glm::dvec2& look) { return 1.0 / std::sqrt(1.0 + glm::d
 
 std::optional<DepthReading> read_depth(const Project& project, const Stage& stage, const StagedObject& object,
                                        Picker& picker) {
-  const Bounds bounds = world_bounds(object.drawables);
+  const Bounds bounds = rough_world_bounds(object.drawables);
   if (bounds.empty()) return std::nullopt;
   const SightFrame sight = sight_frame(project, stage);
   const double centre_m = sight.axial_m(0.5 * (bounds.min_m + bounds.max_m));

@@ -15,6 +15,38 @@ const glm::dvec3 skin{0.36, 0.37, 0.40};  // linear: a neutral gray, nobody's
 const glm::dvec3 dark{0.035, 0.037, 0.042};
 const glm::dvec3 glass{0.10, 0.28, 0.62};
 
+/// A ball of radius 1, much coarser than the primitive: there are many, and they are small in the picture.
+std::shared_ptr<const Mesh> ball() {
+  constexpr int around = 28;
+  constexpr int up = 14;
+  auto mesh = std::make_shared<Mesh>();
+  for (int k = 0; k <= up; ++k) {
+    const double height = std::numbers::pi * k / up;
+    for (int i = 0; i < around; ++i) {
+      const double a = 2.0 * std::numbers::pi * i / around;
+      mesh->positions_m.emplace_back(std::sin(height) * std::cos(a), -std::cos(height),
+                                     -std::sin(height) * std::sin(a));
+    }
+  }
+  mesh->normals = mesh->positions_m;
+  for (int k = 0; k < up; ++k) {
+    for (int i = 0; i < around; ++i) {
+      const auto corner = [&](int n, int m) { return static_cast<std::uint32_t>(m * around + n % around); };
+      if (k > 0) mesh->triangles.push_back({corner(i, k), corner(i + 1, k), corner(i + 1, k + 1)});
+      if (k + 1 < up) mesh->triangles.push_back({corner(i, k), corner(i + 1, k + 1), corner(i, k + 1)});
+    }
+  }
+  return mesh;
+}
+
+Drawable ball_part(const glm::dmat4& world_from_mesh, const glm::dvec3& colour) {
+  static const std::shared_ptr<const Mesh> mesh = ball();
+  Finish finish;
+  finish.a = colour;
+  finish.lit = true;
+  return {mesh, world_from_mesh, finish};
+}
+
 Drawable part(const MeshShape& shape, const glm::dmat4& world_from_mesh, const glm::dvec3& colour) {
   Finish finish;
   finish.a = colour;
@@ -57,13 +89,13 @@ Fixture viewer_fixture(const Project& project, const Stage& stage) {
   const double half_m = 0.5 * stage.interpupillary_m;
   Fixture fixture{{"viewer", ""}, pose, {}};
   fixture.drawables.push_back(
-      part(SphereMesh{1.0}, glm::scale(at(pose, {0.0, 0.005, 0.088}), glm::dvec3(0.076, 0.112, 0.092)), skin));
+      ball_part(glm::scale(at(pose, {0.0, 0.005, 0.088}), glm::dvec3(0.076, 0.112, 0.092)), skin));
   // Nose, neck and ears: without them a head is an egg.
   const auto round = [&](const glm::dvec3& centre_m, const glm::dvec3& radii_m) {
-    fixture.drawables.push_back(part(SphereMesh{1.0}, glm::scale(at(pose, centre_m), radii_m), skin));
+    fixture.drawables.push_back(ball_part(glm::scale(at(pose, centre_m), radii_m), skin));
   };
   round({0.0, -0.038, -0.004}, {0.013, 0.024, 0.018});
-  round({0.0, -0.125, 0.105}, {0.050, 0.080, 0.052});
+  round({0.0, -0.108, 0.098}, {0.046, 0.062, 0.048});
   round({-0.077, -0.010, 0.088}, {0.009, 0.030, 0.020});
   round({0.077, -0.010, 0.088}, {0.009, 0.030, 0.020});
   for (const double x_m : {-half_m, half_m}) {
@@ -71,7 +103,7 @@ Fixture viewer_fixture(const Project& project, const Stage& stage) {
     ring.mesh = rim_mesh;
     fixture.drawables.push_back(ring);
     fixture.drawables.push_back(
-        part(SphereMesh{1.0}, glm::scale(at(pose, {x_m, 0.0, lens_m}), glm::dvec3(0.021, 0.021, 0.003)), glass));
+        ball_part(glm::scale(at(pose, {x_m, 0.0, lens_m}), glm::dvec3(0.021, 0.021, 0.003)), glass));
     const double side_m = x_m < 0.0 ? -0.078 : 0.078;  // the temple, along the head
     fixture.drawables.push_back(part(BoxMesh{{0.004, 0.006, 0.11}}, at(pose, {side_m, 0.004, lens_m + 0.055}), dark));
     const double outer_m = x_m < 0.0 ? x_m - 0.024 : x_m + 0.024;
@@ -88,7 +120,7 @@ Fixture projector_fixture(const Projector& projector) {
   fixture.drawables.push_back(
       part(BoxMesh{{0.13, 0.055, 0.10}}, at(projector.pose, {0.0, 0.0, 0.068}), {0.10, 0.105, 0.115}));
   fixture.drawables.push_back(
-      part(SphereMesh{1.0}, glm::scale(at(projector.pose, {0.0, 0.0, 0.012}), glm::dvec3(0.020, 0.020, 0.012)), glass));
+      ball_part(glm::scale(at(projector.pose, {0.0, 0.0, 0.012}), glm::dvec3(0.020, 0.020, 0.012)), glass));
   return fixture;
 }
 
@@ -100,8 +132,8 @@ std::vector<Fixture> fixtures(const Project& project, const Stage& stage) {
   for (const Light& light : project.lights) {
     if (light.kind != LightKind::point) continue;
     Fixture lamp{{"lights", light.name}, Rigid{light.position_m}, {}};
-    lamp.drawables.push_back(part(SphereMesh{1.0}, glm::scale(at(lamp.pose, {0.0, 0.0, 0.0}), glm::dvec3(0.022)),
-                                  glm::dvec3(1.0, 0.92, 0.72)));
+    lamp.drawables.push_back(
+        ball_part(glm::scale(at(lamp.pose, {0.0, 0.0, 0.0}), glm::dvec3(0.022)), glm::dvec3(1.0, 0.92, 0.72)));
     all.push_back(std::move(lamp));
   }
   return all;

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/mesh/measure.h"
+#include "editor/tools/known_bounds.h"
 
 namespace focalstage {
 namespace {
@@ -45,7 +46,7 @@ SightFrame sight_frame(const Project& project, const Stage& stage) {
 LookBox looks_at(const SightFrame& sight, const std::vector<Drawable>& drawables) {
   LookBox box;
   for (const Drawable& drawable : drawables) {
-    const Bounds bounds = mesh_bounds(*drawable.mesh);
+    const Bounds& bounds = known_bounds(drawable.mesh);
     if (bounds.empty()) continue;
     for (unsigned i = 0; i < 8; ++i) {
       const glm::dvec3 corner{(i & 1u) != 0 ? bounds.max_m.x : bounds.min_m.x,

@@ -75,4 +75,17 @@ std::vector<Edit> adopt(const Project& project, const RigDescription& rig) {
   return edits;
 }
 
+RigValues rig_values_of(const RigDescription& rig) {
+  RigValues values;
+  values.lens_response = rig.glasses.lens_response;
+  values.shutter_open_ms = rig.glasses.shutter_open_ms;
+  values.shutter_close_ms = rig.glasses.shutter_close_ms;
+  if (!rig.projectors.empty()) {
+    values.latency_ms = rig.projectors[0].latency_ms;
+    values.width_px = rig.projectors[0].width_px;
+    values.height_px = rig.projectors[0].height_px;
+  }
+  return values;
+}
+
 }  // namespace focalstage

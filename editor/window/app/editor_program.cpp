@@ -102,6 +102,7 @@ int run_editor(int argc, char** argv) {
     return app.exit(problem) == 0 ? done : usage;
   }
   arguments.monkey_given = monkey->count() > 0;
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // what a script prints is out before the next step, also into a pipe
   return open_and_play(arguments);
 }
 

@@ -90,7 +90,7 @@ Step select_step(Line& line) {
 }
 
 Step wait_step(Line& line) {
-  const char* form = "wait compile|tasks|rig STATE [within SECONDS], or wait seconds N";
+  const char* form = "wait compile|push|tasks|rig STATE [within SECONDS], or wait seconds N";
   WaitFor step;
   const std::string what = line.words.take();
   if (what == "seconds") {
@@ -102,6 +102,8 @@ Step wait_step(Line& line) {
     step.what = WaitFor::What::rig;
     step.state = line.words.take();
     if (step.state.empty()) return line.wrong(form);
+  } else if (what == "push") {
+    step.what = WaitFor::What::push;
   } else if (what == "tasks" || what == "task") {
     step.what = WaitFor::What::tasks;
   } else if (what != "compile") {
@@ -133,11 +135,17 @@ Step move_step(Line& line) {
 }
 
 Step hold_step(Line& line, bool down) {
+  const char* form = "press [PLACE] [right|middle], release [PLACE] [right|middle]";
   HoldButton step;
   step.down = down;
+  const std::string first = line.words.peek();
+  if (!line.words.at_end() && first != "right" && first != "middle") {
+    step.place = take_place(line.words);
+    if (!step.place) return line.wrong(form);
+  }
   if (line.words.take_if("right")) step.button = 1;
   if (line.words.take_if("middle")) step.button = 2;
-  if (!line.words.at_end()) return line.wrong("press [right|middle], release [right|middle]");
+  if (!line.words.at_end()) return line.wrong(form);
   return ScriptStep{step};
 }
 
@@ -250,9 +258,24 @@ Step expect_colour_step(Line& line) {
 }
 
 Step screenshot_step(Line& line) {
-  const std::string path = line.words.take();
-  if (path.empty() || !line.words.at_end()) return line.wrong("screenshot PATH");
-  return ScriptStep{TakeScreenshot{path}};
+  TakeScreenshot step{line.words.take(), {}};
+  if (step.path.empty()) return line.wrong("screenshot PATH [NAME...]");
+  while (!line.words.at_end()) step.of.push_back(line.words.take());
+  return ScriptStep{step};
+}
+
+Step expect_picture_step(Line& line) {
+  const char* form = "expect-picture PATH [NAME...] [within SHARE]";
+  ExpectPicture step;
+  step.picture.path = line.words.take();
+  if (step.picture.path.empty()) return line.wrong(form);
+  while (!line.words.at_end() && !line.words.take_if("within")) step.picture.of.push_back(line.words.take());
+  if (!line.words.at_end()) {
+    const auto share = line.words.take_number();
+    if (!share || *share < 0.0 || *share > 0.5 || !line.words.at_end()) return line.wrong(form);
+    step.share = *share;
+  }
+  return ScriptStep{step};
 }
 
 Step frames_step(Line& line) {
@@ -285,6 +308,7 @@ constexpr Verb verbs[] = {
     {"expect", expect_step},
     {"expect-widget", expect_widget_step},
     {"expect-color", expect_colour_step},
+    {"expect-picture", expect_picture_step},
     {"screenshot", screenshot_step},
     {"frames", frames_step},
     {"print", [](Line& line) { return Step(ScriptStep{PrintValue{line.words.take()}}); }},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -44,7 +45,7 @@ struct SelectThing {
   std::string name;
 };
 struct WaitFor {
-  enum class What { compile, rig, seconds, tasks };
+  enum class What { compile, push, rig, seconds, tasks };
   What what = What::compile;
   std::string state;      ///< of the rig
   double seconds = 30.0;  ///< how long, or how long at most
@@ -53,6 +54,7 @@ struct MovePointer {
   ScriptPlace place;
 };
 struct HoldButton {
+  std::optional<ScriptPlace> place;  ///< where the pointer goes first; none: where it is
   bool down = true;
   int button = 0;
 };
@@ -95,6 +97,12 @@ struct ExpectColour {
 };
 struct TakeScreenshot {
   std::string path;
+  std::vector<std::string> of;  ///< what of the window: around these widgets; none: all of it
+};
+/// The picture of a screenshot against one that a person has approved.
+struct ExpectPicture {
+  TakeScreenshot picture;  ///< the approved one; relative to the script
+  double share = 0.02;     ///< of pixels that may differ visibly
 };
 struct DrawFrames {
   int count = 1;
@@ -107,7 +115,7 @@ struct PrintWidgets {};
 using ScriptStep =
     std::variant<RunCommand, ApplyEdit, SelectThing, WaitFor, ScriptClick, MovePointer, HoldButton, DragPointer,
                  ScrollWheel, PressKey, TypeText, DropFiles, ResizeWindow, SetScale, ExpectValue, ExpectWidget,
-                 ExpectColour, TakeScreenshot, DrawFrames, PrintValue, PrintWidgets>;
+                 ExpectColour, ExpectPicture, TakeScreenshot, DrawFrames, PrintValue, PrintWidgets>;
 
 struct ScriptLine {
   int number = 0;

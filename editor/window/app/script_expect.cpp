@@ -7,7 +7,6 @@
 #include "editor/window/app/editor.h"
 #include "editor/window/app/script_player.h"
 #include "editor/window/base/widget_registry.h"
-#include "io/image/png.h"
 #include "io/json/json.h"
 
 namespace focalstage {
@@ -67,15 +66,6 @@ Status ScriptPlayer::act(const ExpectColour& step) {
   if (std::max({apart.r, apart.g, apart.b}) <= step.tolerance) return {};
   return wrong("the pixel " + std::to_string(at.x) + " " + std::to_string(at.y) + " is " + hex_of(seen) + ", not " +
                hex_of(step.rgb));
-}
-
-Status ScriptPlayer::act(const TakeScreenshot& step) {
-  settle();
-  const std::filesystem::path path(step.path);  // absolute, or where the program was started
-  std::error_code problem;
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), problem);
-  const glm::ivec2 size = editor_.painter().size_px();
-  return write_png(path, size.x, size.y, 3, editor_.painter().pixels());
 }
 
 Status ScriptPlayer::act(const PrintValue& step) {

@@ -133,6 +133,8 @@ Status ScriptPlayer::act(const WaitFor& step) {
     switch (step.what) {
       case WaitFor::What::compile:
         return !session.compiling();
+      case WaitFor::What::push:
+        return !session.rig().status().pushing;
       case WaitFor::What::tasks:
         return session.tasks().empty();
       case WaitFor::What::rig:
@@ -181,6 +183,9 @@ Status ScriptPlayer::act(const MovePointer& step) {
 }
 
 Status ScriptPlayer::act(const HoldButton& step) {
+  if (step.place) {
+    if (const Status moved = act(MovePointer{*step.place}); !moved) return moved;
+  }
   editor_.window().input().button(step.button, step.down);
   answer();
   return {};

@@ -37,10 +37,18 @@ class ScriptPlayer {
   Status act(const ExpectValue& step);
   Status act(const ExpectWidget& step);
   Status act(const ExpectColour& step);
+  Status act(const ExpectPicture& step);
   Status act(const TakeScreenshot& step);
   Status act(const DrawFrames& step);
   Status act(const PrintValue& step);
   Status act(const PrintWidgets& step);
+
+  /// Codes of a part of the window, three a pixel.
+  struct Shot {
+    glm::ivec2 size_px{0};
+    std::vector<std::uint8_t> rgb;
+  };
+  Result<Shot> shoot(const std::vector<std::string>& widgets);
 
   Fault wrong(const std::string& what) const { return {"script.failed", where_, what, ""}; }
   Result<glm::vec2> pixel_of(const ScriptPlace& place);

@@ -24,14 +24,16 @@ Chips::Chips(const PaneRect& rect, Corner corner)
     : rect_(rect),
       right_(corner == Corner::top_right || corner == Corner::bottom_right),
       bottom_(corner == Corner::bottom_left || corner == Corner::bottom_right) {
-  if (corner == Corner::top_left) along_px_ = reserved_left_px;
-  if (corner == Corner::top_right) along_px_ = reserved_right_px;
+  if (bottom_) return;
+  along_px_ = right_ ? reserved_right_px : reserved_left_px;
+  other_end_px_ = right_ ? reserved_left_px : reserved_right_px;
 }
 
 bool Chips::take(glm::vec2 size, glm::vec2& min) {
   const float margin = px(8);
   const float start = along_px_ + margin;
-  if (start + size.x + margin > rect_.size.x || rows_px_ + size.y + 2.0f * margin > rect_.size.y) return false;
+  if (start + size.x + margin + other_end_px_ > rect_.size.x || rows_px_ + size.y + 2.0f * margin > rect_.size.y)
+    return false;
   min.x = right_ ? rect_.min.x + rect_.size.x - start - size.x : rect_.min.x + start;
   min.y = bottom_ ? rect_.min.y + rect_.size.y - margin - rows_px_ - size.y : rect_.min.y + margin + rows_px_;
   along_px_ += size.x + px(5);
@@ -64,7 +66,7 @@ bool Chips::button(std::string_view name, std::string_view label, ButtonStyle st
 }
 
 void Chips::next_row() {
-  along_px_ = 0.0f;
+  along_px_ = other_end_px_ = 0.0f;
   rows_px_ += ImGui::GetFrameHeight() + px(5);
 }
 

@@ -33,6 +33,7 @@ class Chips {
   bool right_;
   bool bottom_;
   float along_px_ = 0.0f;
+  float other_end_px_ = 0.0f;  ///< taken at the far end of the first row
   float rows_px_ = 0.0f;
 };
 

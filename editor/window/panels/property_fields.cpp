@@ -5,6 +5,7 @@
 
 #include "editor/session/colour_text.h"
 #include "editor/window/base/fonts.h"
+#include "editor/window/base/icons.h"
 #include "editor/window/base/im.h"
 #include "editor/window/base/widgets.h"
 
@@ -39,15 +40,30 @@ float begin_field(const Property& row, float room_px = 0.0f) {
   return std::max(width, px(20));
 }
 
-/// The small cross behind a field that can go. True when pressed.
+/// A small cross, quiet until the hand is on it. True when pressed.
+bool cross(const Property& row) {
+  const glm::vec2 min = from_im(ImGui::GetCursorScreenPos());
+  const glm::vec2 size(ImGui::GetFrameHeight());
+  const std::string name = row.id + " remove";
+  ImGui::PushID(name.c_str());
+  const bool pressed = ImGui::InvisibleButton("cross", to_im(size));
+  ImGui::PopID();
+  see_last_item(name);
+  tip_for_last_item({"Take it away", {}, {}});
+  const std::string_view glyph = icon("close");
+  const float font_size = std::round(0.8f * ImGui::GetFontSize());
+  const ImVec2 text = ImGui::GetFont()->CalcTextSizeA(font_size, 1e6f, 0.0f, glyph.data(), glyph.data() + glyph.size());
+  const glm::vec2 at = glm::floor(min + 0.5f * (size - from_im(text)));
+  ImGui::GetWindowDrawList()->AddText(ImGui::GetFont(), font_size, to_im(at),
+                                      ImGui::IsItemHovered() ? theme::text : theme::faint, glyph.data(),
+                                      glyph.data() + glyph.size());
+  return pressed;
+}
+
+/// The cross behind a field that can go. True when pressed.
 bool remove_button(const Property& row) {
   ImGui::SameLine(0.0f, px(2));
-  ButtonStyle style;
-  style.look = ButtonLook::quiet;
-  style.icon = "close";
-  style.width_px = ImGui::GetFrameHeight();
-  style.tip.help = "Take it away";
-  return icon_button(row.id + " remove", style);
+  return cross(row);
 }
 
 glm::dvec3 rgb_of(const Value& value) {
@@ -92,12 +108,7 @@ PropertyChange draw_shown(const Property& row) {
   const float x = right - text_width(text) - ImGui::GetStyle().FramePadding.x - remove_width();
   const ImVec2 below = ImGui::GetCursorScreenPos();
   ImGui::SetCursorScreenPos({x - px(2), min.y});
-  ButtonStyle style;
-  style.look = ButtonLook::quiet;
-  style.icon = "close";
-  style.width_px = ImGui::GetFrameHeight();
-  style.tip.help = "Take them away";
-  const bool pressed = icon_button(row.id + " remove", style);
+  const bool pressed = cross(row);
   ImGui::SetCursorScreenPos(below);
   return pressed ? set_to({}) : PropertyChange{};
 }
@@ -165,6 +176,7 @@ PropertyChange PropertyFields::draw_number(const Property& row) {
 PropertyChange PropertyFields::draw_text(const Property& row) {
   FieldStyle style;
   style.width_px = begin_field(row);
+  style.select_all = true;
   style.mixed = row.mixed;
   style.tip = {{}, {}, row.unavailable};
   const std::string now = row.mixed || !row.value.text() ? std::string() : *row.value.text();

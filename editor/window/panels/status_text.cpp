@@ -47,7 +47,7 @@ bool status_text(std::string_view name, const StatusText& status) {
     list.AddText({x, y}, status.icon_colour, glyph.data(), glyph.data() + glyph.size());
     x += px(icon_room);
   }
-  if (!status.text.empty()) {  // ImGui looks for the end of a text that has no end
+  if (!status.text.empty()) {  // ImGui would measure a null text
     list.AddText({x, y}, status.text_colour, status.text.data(), status.text.data() + status.text.size());
   }
   if (status.caret) {

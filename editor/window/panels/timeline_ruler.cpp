@@ -240,7 +240,7 @@ void TimelineRuler::draw_keys(const Session& session, const Mark& hovered) const
     const bool is_chosen = chosen && same_time(*chosen, key.time_s);
     const bool here = same_time(key.time_s, session.view().frame / rate_hz_);
     const bool lit = hovered.kind == Held::key && same_time(hovered.time_s, key.time_s);
-    draw_diamond({x_of(frame), y}, px(lit || is_chosen ? 6 : 5),
+    draw_diamond({x_of(frame), y}, px(lit || is_chosen ? 7 : 6),
                  is_chosen ? theme::accent
                  : lit     ? theme::colour(0xFFFFFF)
                  : here    ? theme::text
@@ -296,6 +296,7 @@ void TimelineRuler::draw_rename(Session& session) {
   FieldStyle style;
   style.width_px = px(190);
   style.focus = first || ImGui::IsWindowAppearing();
+  style.select_all = true;
   const TextChange change = text_field("cue name", typed_, style);
   const bool left = ImGui::IsItemDeactivated();
   if ((change.finished || left) && !key_pressed(ImGuiKey_Escape) && typed_ != renamed_cue_) {

@@ -73,6 +73,7 @@ glm::vec2 small_text_size(std::string_view text) {
 }
 
 void small_text(ImDrawList& list, glm::vec2 at, std::string_view text, std::uint32_t colour, float width_px) {
+  if (text.empty()) return;  // for ImGui an end of null is no end
   ImFont* font = small_font();
   if (width_px > 0.0f && small_text_size(text).x > width_px) {
     const ImVec4 clip(at.x, at.y, at.x + width_px, at.y + 2.0f * font->FontSize);

@@ -101,10 +101,9 @@ void RoomActors::begin() {
 
 RoomActors::Part RoomActors::make(RoomMeshes& meshes, const Drawable& drawable, const std::vector<Rgb>& tint) {
   RoomMeshes::Entry& entry = meshes.of(drawable.mesh);
-  Part part{
-      drawable.mesh, drawable.finish, tint, vtkSmartPointer<vtkPolyDataMapper>::New(), vtkSmartPointer<vtkActor>::New(),
-      nullptr};
-  part.mapper->SetInputData(tint.empty() ? entry.full : coloured(*entry.full, tint));
+  Part part{drawable.mesh, drawable.finish, tint, vtkSmartPointer<vtkPolyDataMapper>::New(),
+            vtkSmartPointer<vtkActor>::New()};
+  part.mapper->SetInputData(tint.empty() ? entry.poly : coloured(*entry.poly, tint));
   part.mapper->SetScalarVisibility(!tint.empty());
   part.mapper->StaticOn();  // never asks its input again: 500 objects do not pay for what cannot change
   part.actor->SetMapper(part.mapper);
@@ -123,7 +122,6 @@ void RoomActors::show(RoomMeshes& meshes, const StagedName& thing, std::size_t n
   if (found != parts_.end() &&
       (found->second.mesh != drawable.mesh || found->second.finish != drawable.finish || found->second.tint != tint)) {
     renderer_.RemoveActor(found->second.actor);
-    if (found->second.coarse) renderer_.RemoveActor(found->second.coarse);
     parts_.erase(found);
     found = parts_.end();
   }
@@ -135,36 +133,14 @@ void RoomActors::show(RoomMeshes& meshes, const StagedName& thing, std::size_t n
   Part& part = found->second;
   part.shown = true;
   place(*part.actor, drawable.world_from_mesh);
-  if (part.coarse) place(*part.coarse, drawable.world_from_mesh);
 }
 
 void RoomActors::end() {
   std::erase_if(parts_, [&](auto& item) {
     if (item.second.shown) return false;
     renderer_.RemoveActor(item.second.actor);
-    if (item.second.coarse) renderer_.RemoveActor(item.second.coarse);
     return true;
   });
-}
-
-void RoomActors::set_coarse(RoomMeshes& meshes, bool coarse) {
-  for (auto& [key, part] : parts_) {
-    if (!part.coarse) {
-      const RoomMeshes::Entry& entry = meshes.of(part.mesh);
-      if (!entry.coarse) continue;
-      vtkNew<vtkPolyDataMapper> mapper;
-      mapper->SetInputData(entry.coarse);
-      mapper->ScalarVisibilityOff();
-      mapper->StaticOn();
-      part.coarse = vtkSmartPointer<vtkActor>::New();
-      part.coarse->SetMapper(mapper);
-      part.coarse->SetProperty(part.actor->GetProperty());
-      part.coarse->SetUserMatrix(part.actor->GetUserMatrix());
-      renderer_.AddActor(part.coarse);
-    }
-    part.actor->SetVisibility(!coarse);
-    part.coarse->SetVisibility(coarse);
-  }
 }
 
 void RoomActors::set_visible(const std::string& list, bool visible) {

@@ -31,9 +31,6 @@ class RoomActors {
   /// Drops what was not shown since `begin`.
   void end();
 
-  /// Whether large meshes are shown by their stand-ins.
-  void set_coarse(RoomMeshes& meshes, bool coarse);
-
   /// Whether the thing is seen at all: the viewer is not while one looks through its eyes.
   void set_visible(const std::string& list, bool visible);
 
@@ -44,7 +41,6 @@ class RoomActors {
     std::vector<Rgb> tint;
     vtkSmartPointer<vtkPolyDataMapper> mapper;
     vtkSmartPointer<vtkActor> actor;
-    vtkSmartPointer<vtkActor> coarse;  ///< null: none
     bool shown = true;
   };
   using Key = std::tuple<std::string, std::string, std::size_t>;

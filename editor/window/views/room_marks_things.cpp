@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "editor/tools/fixed_text.h"
+#include "editor/tools/known_bounds.h"
 #include "editor/tools/measure.h"
 #include "editor/window/base/fonts.h"
 #include "editor/window/base/theme.h"
@@ -24,7 +25,7 @@ std::optional<glm::dvec2> above(const RoomFrame& frame, const std::vector<Drawab
   glm::dvec2 low(std::numeric_limits<double>::infinity());
   glm::dvec2 high = -low;
   for (const Drawable& drawable : drawables) {
-    const Bounds own = mesh_bounds(*drawable.mesh);
+    const Bounds& own = known_bounds(drawable.mesh);
     for (unsigned i = 0; i < 8 && !own.empty(); ++i) {
       const glm::dvec3 corner{(i & 1u) != 0 ? own.max_m.x : own.min_m.x, (i & 2u) != 0 ? own.max_m.y : own.min_m.y,
                               (i & 4u) != 0 ? own.max_m.z : own.min_m.z};

@@ -1,14 +1,16 @@
 #include "editor/window/views/room_meshes.h"
 
-#include <chrono>
+#include <algorithm>
+#include <cmath>
 #include <cstring>
-#include <utility>
 
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
+#include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkPolyDataNormals.h>
 #include <vtkQuadricClustering.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkUnsignedCharArray.h>
@@ -18,9 +20,13 @@
 namespace focalstage {
 namespace {
 
-constexpr std::size_t large_mesh = 200'000;     // triangles: a stand-in is worth its making
+constexpr std::size_t large_mesh = 250'000;     // triangles of one mesh that are drawn as they are, at most
+constexpr std::size_t large_stage = 400'000;    // of all together
+constexpr std::size_t crowd_budget = 250'000;   // what a larger stage is brought down to, about
+constexpr std::size_t light_mesh = 2'000;       // never worth a stand-in
 constexpr std::size_t worth_culling = 100'000;  // finding out whether larger ones are closed takes longer than it saves
-constexpr int clusters = 48;
+constexpr int finest_divisions = 96;
+constexpr std::size_t triangles_per_square = 10;
 
 template <int Size, class Vectors>
 vtkSmartPointer<vtkFloatArray> float_array(const char* name, const Vectors& vectors) {
@@ -35,14 +41,8 @@ vtkSmartPointer<vtkFloatArray> float_array(const char* name, const Vectors& vect
   return array;
 }
 
-vtkSmartPointer<vtkPolyData> coarse_of(const Mesh& mesh) {
-  vtkNew<vtkQuadricClustering> clustering;
-  clustering->SetInputData(poly_data_of(mesh));
-  clustering->AutoAdjustNumberOfDivisionsOff();
-  clustering->SetNumberOfDivisions(clusters, clusters, clusters);
-  clustering->CopyCellDataOff();
-  clustering->Update();
-  return clustering->GetOutput();
+std::size_t triangles_of_divisions(int divisions) {
+  return triangles_per_square * static_cast<std::size_t>(divisions) * static_cast<std::size_t>(divisions);
 }
 
 }  // namespace
@@ -80,36 +80,130 @@ vtkSmartPointer<vtkPolyData> coloured(vtkPolyData& shared, std::span<const Rgb> 
   return own;
 }
 
+std::shared_ptr<const Mesh> coarse_mesh(const Mesh& mesh, int divisions) {
+  vtkNew<vtkQuadricClustering> clustering;
+  clustering->SetInputData(poly_data_of(mesh));
+  clustering->AutoAdjustNumberOfDivisionsOff();
+  clustering->SetNumberOfDivisions(divisions, divisions, divisions);
+  clustering->CopyCellDataOff();
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputConnection(clustering->GetOutputPort());
+  normals->SplittingOff();
+  normals->ConsistencyOff();
+  normals->Update();
+  vtkPolyData& made = *normals->GetOutput();
+  auto coarse = std::make_shared<Mesh>();
+  for (vtkIdType i = 0; i < made.GetNumberOfPoints(); ++i) {
+    double p[3];
+    made.GetPoint(i, p);
+    coarse->positions_m.emplace_back(p[0], p[1], p[2]);
+    if (made.GetPointData()->GetNormals() == nullptr) continue;
+    made.GetPointData()->GetNormals()->GetTuple(i, p);
+    coarse->normals.emplace_back(p[0], p[1], p[2]);
+  }
+  vtkNew<vtkIdList> corners;
+  made.GetPolys()->InitTraversal();
+  while (made.GetPolys()->GetNextCell(corners) != 0) {
+    if (corners->GetNumberOfIds() != 3) continue;
+    const auto corner = [&](vtkIdType i) { return static_cast<std::uint32_t>(corners->GetId(i)); };
+    coarse->triangles.emplace_back(corner(0), corner(1), corner(2));
+  }
+  return coarse;
+}
+
+CoarseMaker::CoarseMaker() : thread_([this](std::stop_token stop) { work(stop); }) {}
+
+CoarseMaker::~CoarseMaker() = default;
+
+void CoarseMaker::work(std::stop_token stop) {
+  while (true) {
+    Key key;
+    {
+      std::unique_lock lock(mutex_);
+      working_ = false;
+      if (!wake_.wait(lock, stop, [&] { return !waiting_.empty(); })) return;
+      key = waiting_.front();
+      waiting_.pop_front();
+      working_ = true;
+    }
+    std::shared_ptr<const Mesh> coarse = coarse_mesh(*key.first, key.second);
+    const std::lock_guard lock(mutex_);
+    made_[key] = std::move(coarse);
+    news_ = true;
+  }
+}
+
+std::shared_ptr<const Mesh> CoarseMaker::of(const std::shared_ptr<const Mesh>& mesh, int divisions) {
+  const std::lock_guard lock(mutex_);
+  // Whoever else held a mesh let go of it: nobody asks for its stand-in any more.
+  std::erase_if(made_, [&](const auto& item) {
+    return item.second != nullptr && item.first.first != mesh && item.first.first.use_count() == 1;
+  });
+  const auto [place, is_new] = made_.try_emplace({mesh, divisions}, nullptr);
+  if (is_new) {
+    waiting_.emplace_back(mesh, divisions);
+    wake_.notify_one();
+  }
+  return place->second;
+}
+
+bool CoarseMaker::has_news() const {
+  const std::lock_guard lock(mutex_);
+  return news_;
+}
+
+bool CoarseMaker::take_news() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(news_, false);
+}
+
+bool CoarseMaker::busy() const {
+  const std::lock_guard lock(mutex_);
+  return working_ || !waiting_.empty();
+}
+
+void RoomMeshes::budget_for(const Stage& stage) {
+  std::size_t all = 0;
+  std::size_t heavy = 0;
+  for (const StagedObject& object : stage.objects) {
+    for (const Drawable& drawable : object.drawables) {
+      all += std::min(drawable.mesh->triangles.size(), triangles_of_divisions(finest_divisions));
+      heavy += drawable.mesh->triangles.size() > light_mesh ? 1 : 0;
+    }
+  }
+  crowd_divisions_ = 0;
+  if (all <= large_stage || heavy == 0) return;
+  crowd_divisions_ = 12;
+  for (const int divisions : {20, 32, 48, 64, finest_divisions}) {
+    if (triangles_of_divisions(divisions) * heavy <= crowd_budget) crowd_divisions_ = divisions;
+  }
+}
+
+Drawable RoomMeshes::shown(const Drawable& drawable) {
+  const std::size_t triangles = drawable.mesh->triangles.size();
+  int divisions = triangles > large_mesh ? finest_divisions : 0;
+  if (crowd_divisions_ > 0 && triangles > light_mesh && triangles > 2 * triangles_of_divisions(crowd_divisions_)) {
+    divisions = crowd_divisions_;
+  }
+  if (divisions == 0) return drawable;
+  Drawable coarse = drawable;
+  coarse.mesh = coarse_.of(drawable.mesh, divisions);
+  return coarse;
+}
+
 RoomMeshes::Entry& RoomMeshes::of(const std::shared_ptr<const Mesh>& mesh) {
   const auto [place, is_new] = meshes_.try_emplace(mesh.get());
   place->second.used = true;
   Entry& entry = place->second.entry;
   if (!is_new) return entry;
   entry.mesh = mesh;
-  entry.full = poly_data_of(*mesh);
-  const std::size_t triangles = mesh->triangles.size();
-  entry.closed = triangles <= worth_culling && is_closed(*mesh) && enclosed_volume_m3(*mesh) > 0.0;
-  if (triangles > large_mesh) {
-    entry.making = std::async(std::launch::async, [mesh] { return coarse_of(*mesh); });
-  }
+  entry.poly = poly_data_of(*mesh);
+  entry.closed = mesh->triangles.size() <= worth_culling && is_closed(*mesh) && enclosed_volume_m3(*mesh) > 0.0;
   return entry;
 }
 
-bool RoomMeshes::take_ready() {
-  bool any = false;
-  for (auto& [address, kept] : meshes_) {
-    std::future<vtkSmartPointer<vtkPolyData>>& making = kept.entry.making;
-    if (!making.valid() || making.wait_for(std::chrono::seconds(0)) != std::future_status::ready) continue;
-    kept.entry.coarse = making.get();
-    any = true;
-  }
-  return any;
-}
-
 void RoomMeshes::forget_unused() {
-  std::erase_if(meshes_, [](const auto& item) {
-    return !item.second.used && !item.second.entry.making.valid();  // never waits for one that is being made
-  });
+  std::erase_if(meshes_, [](const auto& item) { return !item.second.used; });
   for (auto& [address, kept] : meshes_) kept.used = false;
 }
 

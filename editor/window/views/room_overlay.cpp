@@ -9,29 +9,7 @@ namespace focalstage {
 namespace {
 
 constexpr std::size_t most_traced = 48;
-constexpr std::size_t largest_traced = 150'000;  // triangles
 constexpr std::uint32_t also_selected = theme::colour(0x8FBEFF);
-
-std::size_t triangles_of(const std::vector<Drawable>& drawables) {
-  std::size_t count = 0;
-  for (const Drawable& drawable : drawables) count += drawable.mesh->triangles.size();
-  return count;
-}
-
-/// A stand-in of so many triangles that an outline is made in time: every so many of the mesh's own.
-std::vector<Drawable> thinned(const std::vector<Drawable>& drawables, std::size_t count) {
-  const std::size_t step = count / largest_traced + 1;
-  std::vector<Drawable> thin = drawables;
-  for (Drawable& drawable : thin) {
-    auto mesh = std::make_shared<Mesh>();
-    mesh->positions_m = drawable.mesh->positions_m;
-    for (std::size_t i = 0; i < drawable.mesh->triangles.size(); i += step) {
-      mesh->triangles.push_back(drawable.mesh->triangles[i]);
-    }
-    drawable.mesh = std::move(mesh);
-  }
-  return thin;
-}
 
 void stroke(const RoomFrame& frame, RoomDrawing& drawing, const std::vector<Outline>& lines, std::uint32_t colour,
             double width_px) {
@@ -62,9 +40,7 @@ const std::vector<Outline>& RoomOverlay::traced(const RoomFrame& frame, const St
   std::erase_if(traced_, [&](const Traced& known) {
     return known.thing == thing || known.stage != stage || known.view != frame.view;
   });
-  std::vector<Drawable> drawables = drawables_of(frame.stage, frame.scene.fixtures(), thing);
-  const std::size_t count = triangles_of(drawables);
-  if (count > largest_traced) drawables = thinned(drawables, count);
+  const std::vector<Drawable> drawables = frame.scene.light(drawables_of(frame.stage, frame.scene.fixtures(), thing));
   traced_.push_back({stage, frame.view, thing, outlines(frame.view, drawables, frame.scale)});
   return traced_.back().lines;
 }

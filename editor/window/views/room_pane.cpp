@@ -29,18 +29,18 @@ bool RoomPane::rest_due() const {
 
 bool RoomPane::dirty(const Session& session, glm::ivec2 size_px) const {
   if (!scene_) return false;
-  return !shown_ || *shown_ != shown_of(session, size_px) || rest_due();
+  return !shown_ || *shown_ != shown_of(session, size_px) || scene_->has_news() || rest_due();
 }
 
 void RoomPane::render(const Session& session, glm::ivec2 size_px, double scale) {
   if (!scene_) return;
   const Shown wanted = shown_of(session, size_px);
   const bool changed = !shown_ || *shown_ != wanted;
-  const bool news = scene_->take_ready();
+  const bool news = scene_->has_news();
   scene_->take(session);
   const bool fine = !changed && !news;
   const double pixels = 4.0 * static_cast<double>(size_px.x) * static_cast<double>(size_px.y);
-  scene_->render(wanted.view, session, !fine, fine && pixels <= most_pixels ? 2 : 1, scale);
+  scene_->render(wanted.view, session, fine && pixels <= most_pixels ? 2 : 1, scale);
   if (changed || news) moved_at_ = Clock::now();
   at_rest_ = fine;
   shown_ = wanted;
@@ -63,7 +63,7 @@ void RoomPane::draw(Session& session, const PaneRect& rect) {
   frame.view = room_view(session, size_px);  // the hand may have moved it
   overlay_.draw(frame, hands_);
   draw_room_toolbar(frame);
-  if (!at_rest_) want_frame_within(std::chrono::duration<double>(still_for).count());
+  if (!at_rest_ || scene_->waits_for_meshes()) want_frame_within(std::chrono::duration<double>(still_for).count());
 }
 
 void RoomPane::finalize() {

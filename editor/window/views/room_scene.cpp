@@ -12,6 +12,7 @@
 #include <glm/vec4.hpp>
 
 #include "editor/session/session.h"
+#include "editor/tools/known_bounds.h"
 #include "editor/window/base/theme.h"
 
 namespace focalstage {
@@ -27,25 +28,14 @@ void add_light(vtkRenderer& renderer, const glm::dvec3& from, const glm::dvec3& 
   renderer.AddLight(light);
 }
 
-/// The box around all by the corners of each mesh's own: near enough for a floor, and cheap for a million triangles.
 Bounds rough_bounds(const Stage& stage) {
-  Bounds all;
-  const auto include = [&](const glm::dvec3& p) {
-    all = all.empty() ? Bounds{p, p} : Bounds{glm::min(all.min_m, p), glm::max(all.max_m, p)};
+  Bounds all{stage.world_from_viewer.position_m, stage.world_from_viewer.position_m};
+  const auto include = [&](const std::vector<Drawable>& drawables) {
+    const Bounds own = rough_world_bounds(drawables);
+    if (!own.empty()) all = {glm::min(all.min_m, own.min_m), glm::max(all.max_m, own.max_m)};
   };
-  const auto include_all = [&](const std::vector<Drawable>& drawables) {
-    for (const Drawable& drawable : drawables) {
-      const Bounds own = mesh_bounds(*drawable.mesh);
-      for (unsigned i = 0; i < 8 && !own.empty(); ++i) {
-        const glm::dvec3 corner{(i & 1u) != 0 ? own.max_m.x : own.min_m.x, (i & 2u) != 0 ? own.max_m.y : own.min_m.y,
-                                (i & 4u) != 0 ? own.max_m.z : own.min_m.z};
-        include(glm::dvec3(drawable.world_from_mesh * glm::dvec4(corner, 1.0)));
-      }
-    }
-  };
-  for (const StagedSurface& surface : stage.surfaces) include_all(surface.drawables);
-  for (const StagedObject& object : stage.objects) include_all(object.drawables);
-  include(stage.world_from_viewer.position_m);
+  for (const StagedSurface& surface : stage.surfaces) include(surface.drawables);
+  for (const StagedObject& object : stage.objects) include(object.drawables);
   return all;
 }
 
@@ -80,11 +70,10 @@ void RoomScene::forget_stale_tints(const Project& project, const Stage& stage) {
 }
 
 const std::vector<Rgb>& RoomScene::tint_of(const Project& project, const Stage& stage, const StagedObject& object,
-                                           std::size_t part) {
+                                           std::size_t part, const Drawable& shown) {
   Tinted& tinted = tints_[{object.name, part}];
-  if (tinted.colours.empty() || tinted.drawable != object.drawables[part] || tinted.depth != object.depth) {
-    tinted = {slice_tint(project, stage, object, object.drawables[part], picker_), object.drawables[part],
-              object.depth};
+  if (tinted.colours.empty() || tinted.drawable != shown || tinted.depth != object.depth) {
+    tinted = {slice_tint(project, stage, object, shown, picker_), shown, object.depth};
   }
   return tinted.colours;
 }
@@ -97,11 +86,14 @@ void RoomScene::take_objects(const Session& session, const Project& project, con
     tints_.clear();
   }
   static const std::vector<Rgb> no_tint;
+  meshes_.budget_for(stage);
   actors_.begin();
   for (const StagedObject& object : stage.objects) {
     for (std::size_t i = 0; i < object.drawables.size(); ++i) {
-      actors_.show(meshes_, {"objects", object.name}, i, object.drawables[i],
-                   tint ? tint_of(project, stage, object, i) : no_tint);
+      const Drawable shown = meshes_.shown(object.drawables[i]);
+      if (!shown.mesh) continue;  // its stand-in is being made
+      actors_.show(meshes_, {"objects", object.name}, i, shown,
+                   tint ? tint_of(project, stage, object, i, shown) : no_tint);
     }
   }
   for (const Fixture& fixture : fixtures_) {
@@ -117,7 +109,8 @@ void RoomScene::take(const Session& session) {
   const Project& project = session.project();
   const auto slices = session.slices();
   const bool tint = session.view().tint_by_slice;
-  const bool same_room = taken_stage_ && stage == taken_stage_ && session.revision() == taken_revision_;
+  const bool same_room =
+      taken_stage_ && stage == taken_stage_ && session.revision() == taken_revision_ && !meshes_.take_news();
   if (same_room && slices == taken_slices_ && tint == taken_tint_) return;
   if (!same_room) {
     picker_.keep_only(*stage);
@@ -130,7 +123,8 @@ void RoomScene::take(const Session& session) {
     take_objects(session, project, *stage);
     meshes_.forget_unused();
   }
-  surfaces_.show(*stage, project, slices, picker_);
+  surfaces_.show(*stage, project, slices, picker_, meshes_);
+
   taken_stage_ = stage;
   taken_revision_ = session.revision();
   taken_slices_ = slices;
@@ -155,12 +149,18 @@ void RoomScene::set_camera(const RoomView& view) {
   camera.UseExplicitProjectionTransformMatrixOn();
 }
 
-void RoomScene::render(const RoomView& view, const Session& session, bool moving, int supersample, double scale) {
+std::vector<Drawable> RoomScene::light(std::vector<Drawable> drawables) {
+  for (Drawable& drawable : drawables) {
+    if (const Drawable shown = meshes_.shown(drawable); shown.mesh) drawable = shown;
+  }
+  return drawables;
+}
+
+void RoomScene::render(const RoomView& view, const Session& session, int supersample, double scale) {
   set_camera(view);
   const ViewState& state = session.view();
   const bool through_viewer =
       state.look_through == LookThrough::left_eye || state.look_through == LookThrough::right_eye;
-  actors_.set_coarse(meshes_, moving);
   actors_.set_visible("viewer", !through_viewer);
   actors_.set_visible("projectors", state.look_through != LookThrough::projector);
   if (state.show_sheets && state.look_through == LookThrough::nothing) {

@@ -27,8 +27,8 @@ class RoomScene {
   /// Takes over what changed of the session's stage, images and view state.
   void take(const Session& session);
 
-  /// Renders it. `moving`: large meshes by their stand-ins. `supersample` 2: the picture at rest.
-  void render(const RoomView& view, const Session& session, bool moving, int supersample, double scale);
+  /// Renders it. `supersample` 2: the picture at rest.
+  void render(const RoomView& view, const Session& session, int supersample, double scale);
 
   Picture picture() const { return target_.picture(); }
   void finalize() { target_.finalize(); }
@@ -38,8 +38,13 @@ class RoomScene {
   const std::vector<SliceSheet>& sheets() const { return sheets_; }
   const Floor& floor() const { return floor_; }
 
-  /// Whether a stand-in for a large mesh has arrived since it was asked.
-  bool take_ready() { return meshes_.take_ready(); }
+  /// Drawables with the meshes that are drawn for them: for outlines, which cost as much as what they go round.
+  std::vector<Drawable> light(std::vector<Drawable> drawables);
+
+  /// Whether stand-ins for large meshes are still being made.
+  bool waits_for_meshes() const { return meshes_.busy(); }
+  /// Whether some have come that were not taken yet.
+  bool has_news() const { return meshes_.has_news(); }
 
  private:
   struct Tinted {
@@ -50,7 +55,7 @@ class RoomScene {
 
   void take_objects(const Session& session, const Project& project, const Stage& stage);
   const std::vector<Rgb>& tint_of(const Project& project, const Stage& stage, const StagedObject& object,
-                                  std::size_t part);
+                                  std::size_t part, const Drawable& shown);
   void forget_stale_tints(const Project& project, const Stage& stage);
   void set_camera(const RoomView& view);
 

@@ -10,7 +10,6 @@
 
 #include "editor/tools/surface_light.h"
 #include "editor/window/views/room_actors.h"
-#include "editor/window/views/room_meshes.h"
 
 namespace focalstage {
 namespace {
@@ -69,7 +68,9 @@ RoomSurfaces::Part RoomSurfaces::make(const Drawable& drawable) {
 void RoomSurfaces::pin_pictures(const Stage& stage, const ProjectorModel& projector, Picker& picker) {
   for (const StagedSurface& surface : stage.surfaces) {
     for (std::size_t i = 0; i < surface.drawables.size(); ++i) {
-      Part& part = parts_.at({surface.name, i});
+      const auto found = parts_.find({surface.name, i});
+      if (found == parts_.end()) continue;
+      Part& part = found->second;
       const PinnedPicture pinned =
           pinned_picture(stage, projector, *part.fine, surface.drawables[i].world_from_mesh, picker);
       vtkNew<vtkFloatArray> uvs;
@@ -93,12 +94,13 @@ void RoomSurfaces::pin_pictures(const Stage& stage, const ProjectorModel& projec
 }
 
 void RoomSurfaces::show(const Stage& stage, const Project& project, const std::shared_ptr<const CompiledSlices>& slices,
-                        Picker& picker) {
+                        Picker& picker, RoomMeshes& meshes) {
   for (auto& [key, part] : parts_) part.shown = false;
   bool is_new = false;
   for (const StagedSurface& surface : stage.surfaces) {
     for (std::size_t i = 0; i < surface.drawables.size(); ++i) {
-      const Drawable& drawable = surface.drawables[i];
+      const Drawable drawable = meshes.shown(surface.drawables[i]);
+      if (!drawable.mesh) continue;  // its stand-in is being made
       auto found = parts_.find({surface.name, i});
       if (found != parts_.end() && found->second.mesh != drawable.mesh) {
         renderer_.RemoveActor(found->second.actor);

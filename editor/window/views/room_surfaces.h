@@ -17,6 +17,7 @@
 #include "core/stage/stage.h"
 #include "editor/preview/preview_values.h"
 #include "editor/tools/pick.h"
+#include "editor/window/views/room_meshes.h"
 
 namespace focalstage {
 
@@ -27,7 +28,7 @@ class RoomSurfaces {
 
   /// Takes the surfaces as they stand and the newest images (null: none yet).
   void show(const Stage& stage, const Project& project, const std::shared_ptr<const CompiledSlices>& slices,
-            Picker& picker);
+            Picker& picker, RoomMeshes& meshes);
 
  private:
   struct Part {

@@ -54,7 +54,7 @@ void draw_view_menu(RoomFrame& frame) {
   const ViewState& state = frame.session.view();
   ImGui::SetNextWindowSize({px(280), 0.0f});
   if (!ImGui::BeginPopup("room-view")) return;
-  for (const std::string_view id : {"view.home", "view.selection", "view.front", "view.right", "view.top"}) {
+  for (const std::string_view id : {"view.home", "view.zoom-selection", "view.front", "view.right", "view.top"}) {
     menu_row(frame.session, id, false);
   }
   ImGui::Separator();

@@ -292,15 +292,5 @@ TEST_CASE("a show beyond a limit goes dark before it is seen") {
   CHECK(stand.rig.dark_s.size() == 1);
 }
 
-TEST_CASE("sweeps that came too late pass all the same") {
-  Stand stand;
-  stand.player.activate(sample::counted(5));
-  REQUIRE(stand.player.play());
-  stand.sweeps(3);
-  stand.player.skip(2);
-  stand.sweeps(1);
-  CHECK(stand.first_codes() == std::vector{0, 0, 1, 49});
-}
-
 }  // namespace
 }  // namespace focalstage

@@ -149,7 +149,7 @@ TEST_CASE("one editor holds the rig, others watch and may black it out") {
 TEST_CASE("a client that vanished mid-push leaves its chunks, and the rig once its lease has run out") {
   Stand stand(RigClock::virtual_time, 512, 384);
   stand.runtime.reset();
-  stand.options.lease = milliseconds(300);
+  stand.options.lease = milliseconds(1500);
   stand.start();
   RigClient* vanished = new RigClient(stand.client());
   std::stop_source stop;

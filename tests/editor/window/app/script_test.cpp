@@ -48,6 +48,16 @@ TEST_CASE("a drag has two places, steps and what is held") {
   CHECK(drag.from.shift);
 }
 
+TEST_CASE("a button is held where the pointer is, or goes there first") {
+  CHECK_FALSE(step<HoldButton>("press").place.has_value());
+  CHECK(step<HoldButton>("press right").button == 1);
+  const auto placed = step<HoldButton>("press pane/room 0.1 0.2 middle");
+  REQUIRE(placed.place.has_value());
+  CHECK(placed.place->at == glm::vec2(0.1f, 0.2f));
+  CHECK(placed.button == 2);
+  CHECK_FALSE(step<HoldButton>("release").down);
+}
+
 TEST_CASE("an expectation's value is JSON with blanks, its tolerance apart") {
   const auto text = step<ExpectValue>("expect /project/name \"within a room\"");
   CHECK(*text.value.text() == "within a room");
