@@ -63,7 +63,7 @@ struct Session::State {
   std::uint64_t staged_revision = 0;
   int staged_frame = -1;
   std::vector<Finding> asset_findings;
-  bool reading = false;  ///< files of the project, behind the window
+  bool reading = false;               ///< files of the project, behind the window
   std::vector<Finding> rig_findings;  ///< where the project is not made for the rig that is there
   std::uint64_t rig_checked_revision = 0;
   RigDescription rig_checked;
