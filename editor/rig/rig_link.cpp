@@ -206,6 +206,7 @@ void RigLink::State::watch(const std::string& address, std::stop_token stop) {
     }
     const Status ended = watching->watch(watch_interval, [&](const RigState& seen) {
       publish([&](RigStatus& now) {
+        if (now.phase == RigStatus::Phase::lost) now.fault.reset();
         now.phase = RigStatus::Phase::connected;
         now.state = seen;
       });

@@ -35,11 +35,7 @@ RigLink& link(Session& session) { return SessionAccess::of(session).rig; }
 
 /// args: address, HOST:PORT
 Status connect(Session& session, const Value& args) {
-  auto& state = SessionAccess::of(session);
-  const std::string address = text_or(args, "address", default_rig_address);
-  state.rig.connect(address);
-  remember_rig(address, state.folders);
-  state.recent_rigs = recent_rigs(state.folders);
+  link(session).connect(text_or(args, "address", default_rig_address));
   return {};
 }
 

@@ -120,7 +120,7 @@ void add_view_commands(CommandList& list) {
   add({"view.home", "Everything in view", "Shift+Home", "Everything in view, as at the start", "home", true,
        needs_project, home});
   add({"view.front", "Room from the viewer", "1", "Along the viewer's gaze", "", true, needs_project, stand<0, 0>});
-  add({"view.right", "Room from the right", "3", "From the viewer's right", "", true, needs_project, stand<90, 0>});
+  add({"view.right", "Room from the right", "3", "From the viewer's right", "", true, needs_project, stand<-90, 0>});
   add({"view.top", "Room from the top", "7", "Straight down", "", true, needs_project, stand<0, 90>});
   add({"view.left-eye", "Look through the left eye", "", "The room as the left eye has it", "eye", true, needs_project,
        look<LookThrough::left_eye>});

@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 6> mesh_endings{".glb", ".gltf", ".obj", ".off", ".ply", ".stl"};
+constexpr std::array<std::string_view, 9> asset_endings{".glb", ".gltf", ".jpeg", ".jpg", ".obj",
+                                                        ".off", ".ply",  ".png",  ".stl"};
 /// More than anybody reads in a list.
 constexpr std::size_t most_entries = 5000;
 
@@ -60,8 +61,8 @@ bool is_wanted(const fs::path& file, Listed wanted) {
   switch (wanted) {
     case Listed::projects:
       return ending == ".focal";
-    case Listed::meshes:
-      return std::ranges::find(mesh_endings, ending) != mesh_endings.end();
+    case Listed::assets:
+      return std::ranges::find(asset_endings, ending) != asset_endings.end();
     case Listed::folders:
       return false;
     case Listed::everything:

@@ -11,7 +11,7 @@
 namespace focalstage {
 
 /// What a browser of files is looking for.
-enum class Listed { projects, meshes, folders, everything };
+enum class Listed { projects, assets, folders, everything };
 
 struct FolderEntry {
   std::string name;

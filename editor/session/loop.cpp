@@ -58,6 +58,37 @@ void take_focus(Session::State& state) {
   state.view.focus_d = std::clamp(answer->focus_d, -1.0, 10.0);
 }
 
+/// A rig that comes, goes or fails says so once, wherever the person looks.
+void tell_of_rig(Session::State& state) {
+  using Phase = RigStatus::Phase;
+  const RigStatus rig = state.rig.status();
+  RigTold& told = state.rig_told;
+  if (rig.phase != told.phase) {
+    if (rig.phase == Phase::connected) {
+      state.say(LogLine::Kind::good, "Connected to the rig at " + rig.address);
+      if (!rig.simulated) {
+        remember_rig(rig.address, state.folders);
+        state.recent_rigs = recent_rigs(state.folders);
+      }
+    }
+    if (rig.phase == Phase::lost) {
+      state.say(LogLine::Kind::warning, "Lost the rig at " + rig.address + "; it is tried again until it answers");
+    }
+    told.phase = rig.phase;
+  }
+  const std::string fault = rig.fault ? describe(*rig.fault) : "";
+  if (fault != told.fault && !fault.empty() && rig.phase != Phase::lost) state.say(LogLine::Kind::fault, fault);
+  told.fault = fault;
+  if (rig.state.fault != told.latched && !rig.state.fault.empty()) {
+    state.say(LogLine::Kind::fault, "The rig went dark: " + rig.state.fault);
+  }
+  told.latched = rig.state.fault;
+  if (rig.pushed_sha256 != told.pushed && !rig.pushed_sha256.empty()) {
+    state.say(LogLine::Kind::good, "Pushed " + state.project().name + " to the rig");
+  }
+  told.pushed = rig.pushed_sha256;
+}
+
 /// Files that were changed on disk are read again, as if the project had just begun to refer to them.
 void look_at_assets(Session::State& state) {
   if (state.document && state.jobs.tasks().empty() && !state.document->shelf().wanted(state.project()).empty()) {
@@ -90,7 +121,9 @@ void look_at_rig(Session::State& state) {
 bool Session::update(double now_s) {
   State& state = *state_;
   state.now_s = now_s;
-  bool changed = state.jobs.finish();
+  bool changed = state.news.exchange(false);
+  changed |= state.jobs.finish();
+  tell_of_rig(state);
   changed |= play_on(state);
   if (!state.view.playing) state.frame_since_s = now_s;
   if (now_s - state.looked_outside_at_s >= look_outside_every_s) {

@@ -65,7 +65,10 @@ bool same(const Value& a, const Value& b) {
 }
 
 /// What can be said of, and done to, several things at once.
-bool is_common(const Property& row) { return row.kind != Property::Kind::action && row.key != "name"; }
+bool is_common(const Property& row) {
+  if (row.kind == Property::Kind::shown && row.mixed) return row.removable;
+  return row.kind != Property::Kind::action && row.key != "name";
+}
 
 bool same_row(const Property& a, const Property& b) {
   return a.id == b.id && a.kind == b.kind && a.key == b.key && a.edits == b.edits && a.unit == b.unit;
@@ -181,10 +184,11 @@ std::vector<Edit> edits_for(const PropertyScope& scope, const std::vector<Thing>
   return edits;
 }
 
-std::string words_for(const Property& row, const std::vector<Thing>& things) {
+std::string words_for(const Property& row, const std::vector<Thing>& things, const Value& value) {
   const std::string whom = things.empty()       ? "the project"
                            : things.size() == 1 ? title_of(things[0])
                                                 : std::to_string(things.size()) + " things";
+  if (value.is_null()) return "Remove " + row.label + " of " + whom;
   if (row.key.starts_with("position_m")) return "Move " + whom;
   if (row.key.starts_with("rotation")) return "Turn " + whom;
   if (row.key == "scale") return "Scale " + whom;

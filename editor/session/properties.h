@@ -31,8 +31,8 @@ std::vector<PropertyGroup> properties_of(const PropertyScope& scope, const std::
 std::vector<Edit> edits_for(const PropertyScope& scope, const std::vector<Thing>& things, const Property& row,
                             const Value& value);
 
-/// What setting the row is called in the history: "Move rabbit", "Set latency of main".
-std::string words_for(const Property& row, const std::vector<Thing>& things);
+/// What setting the row to `value` is called in the history: "Move rabbit", "Set latency of main".
+std::string words_for(const Property& row, const std::vector<Thing>& things, const Value& value);
 
 /// What stands above the rows: "rabbit", "rabbit.glb, 70 688 triangles".
 struct PropertyTitle {

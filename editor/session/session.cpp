@@ -38,16 +38,19 @@ Project without_missing(const Project& project, const Assets& assets) {
 }  // namespace
 
 Session::State::State(std::function<void()> wake_up, UserFolders user_folders)
-    : wake(wake_up),
+    : wake([this, up = std::move(wake_up)] {
+        news = true;
+        up();
+      }),
       folders(std::move(user_folders)),
       recent(recent_projects(folders)),
       left_behind(recoveries(folders, recent)),
       recent_rigs(focalstage::recent_rigs(folders)),
       sample_cards(make_sample_cards()),
-      preview(wake_up),
-      reader(wake_up),
-      rig(wake_up, folders.state),
-      jobs(wake_up) {}
+      preview(wake),
+      reader(wake),
+      rig(wake, folders.state),
+      jobs(wake) {}
 
 void Session::State::say(LogLine::Kind kind, std::string text) {
   log.push_back({kind, text, now_s});

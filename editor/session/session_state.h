@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -24,11 +25,20 @@ struct Asked {
   std::vector<std::function<void()>> answers;  ///< the last choice, Cancel, needs none
 };
 
+/// What the person was told of the rig last.
+struct RigTold {
+  RigStatus::Phase phase = RigStatus::Phase::none;
+  std::string fault;
+  std::string latched;
+  std::string pushed;
+};
+
 /// What is behind a Session, for the files of this room that carry out commands.
 struct Session::State {
   explicit State(std::function<void()> wake_up, UserFolders user_folders);
 
-  std::function<void()> wake;
+  std::atomic<bool> news{false};  ///< something arrived from behind since the last update
+  std::function<void()> wake;     ///< from any thread
   UserFolders folders;
 
   std::optional<Document> document;
@@ -70,6 +80,8 @@ struct Session::State {
   FileWish file_wish = FileWish::none;
   Thing import_replaces;             ///< whose mesh the file to be asked for becomes; no name: a new object
   std::function<void()> after_save;  ///< what waits for an untitled project to get its place
+
+  RigTold rig_told;
 
   double now_s = 0.0;
   double synced_at_s = 0.0;

@@ -11,6 +11,8 @@
 namespace focalstage {
 namespace {
 
+constexpr double looked_at_m = 0.5;
+
 /// Calls `visit(name, drawables)` for surfaces and then objects.
 template <class Visit>
 void each_thing(const Stage& stage, Visit&& visit) {
@@ -110,9 +112,10 @@ Bounds stage_bounds(const Stage& stage, const MayPick& wanted, bool with_viewer)
     include(bounds, own.max_m);
   });
   if (with_viewer) {
-    const double half_m = 0.5 * stage.interpupillary_m;
-    include(bounds, stage.world_from_viewer.point({-half_m, 0.0, 0.0}));
-    include(bounds, stage.world_from_viewer.point({half_m, 0.0, 0.0}));
+    for (const glm::dvec3& point :
+         {glm::dvec3(-0.09, -0.13, 0.18), glm::dvec3(0.09, 0.12, 0.0), glm::dvec3(0.0, 0.0, -looked_at_m)}) {
+      include(bounds, stage.world_from_viewer.point(point));
+    }
   }
   return bounds;
 }

@@ -57,8 +57,8 @@ class Picker {
 /// Around everything the drawables hold, in the world.
 Bounds world_bounds(const std::vector<Drawable>& drawables);
 
-/// Around surfaces and objects of the stage for which `wanted` (all, where it is empty), and the viewer's eyes with
-/// `with_viewer`.
+/// Around surfaces and objects of the stage for which `wanted` (all, where it is empty); with `with_viewer` also around
+/// the viewer's head and half a metre of what it looks at, so that an empty room has a size too.
 Bounds stage_bounds(const Stage& stage, const MayPick& wanted = {}, bool with_viewer = false);
 
 /// The things that lie wholly inside the rectangle from `a_px` to `b_px` (any two opposite corners).

@@ -52,7 +52,14 @@ Status Journal::append(const std::string& line) {
   return {};
 }
 
-Status Journal::add(const JournalRecord& record) { return append(journal_line(value_from(record))); }
+Journal::~Journal() {
+  if (file_.open() && !any_) discard();
+}
+
+Status Journal::add(const JournalRecord& record) {
+  any_ = true;
+  return append(journal_line(value_from(record)));
+}
 
 Status Journal::sync() {
   if (!new_) return {};

@@ -43,6 +43,10 @@ class Journal {
   /// Starts anew, replacing what is there. Faults "journal.held" (another editor's), "file.unwritable".
   static Result<Journal> start(const std::filesystem::path& path, const JournalStart& start);
 
+  Journal(Journal&&) noexcept = default;
+  Journal& operator=(Journal&&) noexcept = default;
+  ~Journal();  ///< one without a record goes: there is nothing in it to bring back
+
   Status add(const JournalRecord& record);
   /// Does nothing where nothing is new.
   Status sync();
@@ -58,6 +62,7 @@ class Journal {
   std::filesystem::path path_;
   Descriptor file_;
   bool new_ = false;
+  bool any_ = false;  ///< whether there is a record
 };
 
 /// What a journal holds: all whole records before the first that is torn or damaged.

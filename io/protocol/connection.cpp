@@ -40,7 +40,7 @@ Result<std::shared_ptr<RigConnection>> RigConnection::open(const std::string& ho
       grpc::CreateCustomChannel(host_port, grpc::InsecureChannelCredentials(), channel_arguments());
   if (!channel->WaitForConnected(std::chrono::system_clock::now() + deadline)) {
     return Fault{"rig.unreachable", host_port, "no rig answers there",
-                 "start focalstage-runtime, or name its HOST:PORT with --to"};
+                 "start focalstage-runtime, or give the HOST:PORT where it runs"};
   }
   return std::shared_ptr<RigConnection>(new RigConnection(host_port, deadline, std::move(channel)));
 }

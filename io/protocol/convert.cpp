@@ -235,7 +235,7 @@ Fault fault_from(const grpc::Status& status, const std::string& address) {
   switch (status.error_code()) {
     case grpc::StatusCode::UNAVAILABLE:
       return {"rig.unreachable", address, "no rig answers there",
-              "start focalstage-runtime, or name its HOST:PORT with --to"};
+              "start focalstage-runtime, or give the HOST:PORT where it runs"};
     case grpc::StatusCode::DEADLINE_EXCEEDED:
       return {"rig.unreachable", address, "the rig did not answer in time", "look at the rig's log"};
     case grpc::StatusCode::CANCELLED:

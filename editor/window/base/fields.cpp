@@ -79,7 +79,8 @@ TextChange text_field(std::string_view name, std::string& text, const FieldStyle
   const std::string hint = style.mixed ? "—" : std::string(style.hint);
   ImGui::PushStyleColor(ImGuiCol_TextDisabled, theme::dim);
   TextChange change;
-  change.changed = ImGui::InputTextWithHint(hidden_label(name).c_str(), hint.c_str(), &text);
+  const ImGuiInputTextFlags flags = style.select_all ? ImGuiInputTextFlags_AutoSelectAll : ImGuiInputTextFlags_None;
+  change.changed = ImGui::InputTextWithHint(hidden_label(name).c_str(), hint.c_str(), &text, flags);
   ImGui::PopStyleColor();
   const bool left = ImGui::IsItemDeactivated();
   change.entered = left && (ImGui::IsKeyPressedMap(ImGuiKey_Enter) || ImGui::IsKeyPressedMap(ImGuiKey_KeyPadEnter));

@@ -14,6 +14,7 @@ struct FieldStyle {
   bool focus = false;          ///< takes the keyboard in this frame
   bool mixed = false;          ///< several things differ
   Tip tip = {};
+  bool select_all = false;  ///< of what is there when the keyboard comes: a name to be replaced
 };
 
 struct TextChange {

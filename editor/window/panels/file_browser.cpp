@@ -79,7 +79,8 @@ FileBrowser::Press FileBrowser::draw(float height) {
     if (entries_.empty()) {
       ImGui::Dummy({0.0f, px(4)});
       ImGui::Indent(px(8));
-      paragraph(!problem_.empty() ? problem_ : "Nothing here to choose.", problem_.empty() ? theme::dim : theme::red);
+      const char* nothing = wanted_ == Listed::folders ? "No folders here." : "Nothing here to choose.";
+      paragraph(problem_.empty() ? nothing : problem_, problem_.empty() ? theme::dim : theme::red);
       ImGui::Unindent(px(8));
     }
     const float row = ImGui::GetFontSize() + px(7);

@@ -33,7 +33,7 @@ Words words_of(FileWish wish) {
       return {"Save the project into a folder of its own", "Name of the folder", "Save", "file.save-as",
               Listed::folders};
     case FileWish::import_mesh:
-      return {"Import a mesh", "Name or path of a file", "Import", "file.import", Listed::meshes};
+      return {"Import a mesh or a picture", "Name or path of a file", "Import", "file.import", Listed::assets};
     case FileWish::open:
     case FileWish::none:
       break;
@@ -171,7 +171,10 @@ class FilePanel final : public Panel {
                               : "Makes " + path_end(target, ImGui::GetContentRegionAvail().x - px(80));
       colour = theme::dim;
     }
-    if (message.empty()) message = words.listed == Listed::meshes ? "glTF, OBJ, PLY, STL and OFF files." : " ";
+    if (message.empty())
+      message = words.listed == Listed::assets
+                    ? "glTF, OBJ, PLY, STL and OFF meshes; PNG and JPEG pictures, which become planes."
+                    : " ";
     elided_line(message, 0.0f, problem_.empty() ? theme::dim : colour);
   }
 
@@ -217,7 +220,7 @@ class FilePanel final : public Panel {
     if (is_folder(path) && !(words.listed == Listed::projects && is_project_folder(path))) return go(path);
     std::error_code none;
     if (!fs::exists(path, none)) {
-      problem_ = "There is no " + path.filename().string() + " in " + path.parent_path().string();
+      problem_ = "There is no \"" + path.filename().string() + "\" in " + path.parent_path().string();
       focus_ = true;
       return;
     }
@@ -225,7 +228,7 @@ class FilePanel final : public Panel {
   }
 
   void take(Session& session, const Words& words, const fs::path& path) {
-    if (words.listed == Listed::meshes) imported_from_ = path.parent_path();
+    if (words.listed == Listed::assets) imported_from_ = path.parent_path();
     Value args;
     args.set("path", path.string());
     const Status done = session.run(words.command, args);

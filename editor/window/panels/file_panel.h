@@ -6,7 +6,7 @@
 
 namespace focalstage {
 
-/// Asks for the path that a command needs: a project to open, a folder to save into, a mesh to import.
+/// Asks for the path that a command needs: a project to open, a folder to save into, a file to import.
 std::unique_ptr<Panel> make_file_panel();
 
 }  // namespace focalstage

@@ -53,9 +53,9 @@ Mark mark_of(Severity severity) {
 /// Where the columns of the table begin, for its width; those there is no room for have no width.
 struct Columns {
   explicit Columns(float width) {
-    code = width >= px(760) ? px(190) : 0.0f;
-    place = width >= px(640) ? px(150) : 0.0f;
-    amount = width >= px(980) ? px(180) : 0.0f;
+    code = width >= px(1000) ? px(190) : 0.0f;
+    place = width >= px(700) ? px(150) : 0.0f;
+    amount = width >= px(1200) ? px(180) : 0.0f;
     remedy = width >= px(560) ? std::floor(width * 0.28f) : px(70);
   }
   float code, place, amount, remedy;

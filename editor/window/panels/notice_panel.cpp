@@ -56,6 +56,7 @@ class NoticePanel final : public Panel {
       session.dismiss_notice();
       return;
     }
+    if (rect.size.x < px(280) || rect.size.y < px(170)) return;  // it would lie over the bar; the log has it
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, static_cast<float>(alpha));
     if (draw_line(line, rect, alpha)) session.dismiss_notice();
     ImGui::PopStyleVar();

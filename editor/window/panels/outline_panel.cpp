@@ -330,14 +330,15 @@ class OutlinePanel final : public Panel {
     } else {
       session.view().renaming = row.thing;
     }
-    typing_ = false;
   }
 
   void draw_rename(Session& session, const OutlineRow& row) {
     const glm::vec2 min = from_im(ImGui::GetCursorScreenPos());
-    if (!typing_) typed_ = row.label;
+    const bool begins = typing_for_ != row.thing;
+    if (begins) typed_ = row.label;
     FieldStyle style;
-    style.focus = !typing_;
+    style.focus = begins;
+    style.select_all = true;
     style.width_px = ImGui::GetContentRegionAvail().x - px(row.inside ? 44 : 26);
     ImGui::SetCursorScreenPos({min.x + px(row.inside ? 44 : 26), min.y});
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {px(4), px(3)});
@@ -348,14 +349,18 @@ class OutlinePanel final : public Panel {
     ImGui::GetWindowDrawList()->AddText({min.x + px(row.inside ? 24 : 6), min.y + px(3)}, theme::dim, glyph.data(),
                                         glyph.data() + glyph.size());
     ImGui::SetCursorScreenPos({min.x, min.y + row_px_});
-    if (typing_ && (change.finished || left)) finish_rename(session, row, !key_pressed(ImGuiKey_Escape));
-    if (!typing_) want_frame_within(0.0);
-    typing_ = true;
+    typing_for_ = row.thing;
+    if (begins) {
+      want_frame_within(0.0);  // the field takes the keyboard in the frame after
+    } else if (change.finished || left) {
+      finish_rename(session, row, !key_pressed(ImGuiKey_Escape));
+    }
   }
 
   void finish_rename(Session& session, const OutlineRow& row, bool take) {
     session.view().renaming.reset();
     renamed_group_.reset();
+    typing_for_.reset();
     if (!take || typed_ == row.label) return;
     if (row.kind == OutlineRow::Kind::group) {
       std::vector<Edit> edits;
@@ -415,7 +420,7 @@ class OutlinePanel final : public Panel {
   Thing revealed_;  ///< the last one that was brought into sight
   std::optional<Thing> renamed_group_;
   std::string typed_;
-  bool typing_ = false;
+  std::optional<Thing> typing_for_;  ///< whose name has the keyboard
   bool open_menu_ = false;
   std::optional<Thing> dragged_;
   float rows_top_px_ = 0.0f;

@@ -75,10 +75,10 @@ class PropertiesPanel final : public Panel {
     std::vector<Edit> edits = edits_for(scope_of(session), things, row, change.value);
     if (edits.empty()) return;
     if (!change.moving) {
-      (void)session.edit(words_for(row, things), std::move(edits));
+      (void)session.edit(words_for(row, things, change.value), std::move(edits));
     } else if (apply_all(session.project(), edits)) {
       // A hand passes over values that cannot be (a slice of the same power); it need not be told of each.
-      (void)session.drag(words_for(row, things), std::move(edits));
+      (void)session.drag(words_for(row, things, change.value), std::move(edits));
     }
   }
 

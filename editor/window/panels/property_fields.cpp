@@ -12,6 +12,9 @@
 namespace focalstage {
 namespace {
 
+constexpr double picker_width = 232.0;
+constexpr double picker_height = 270.0;
+
 float text_width(const std::string& text) { return ImGui::CalcTextSize(text.c_str()).x; }
 float remove_width() { return ImGui::GetFrameHeight() + px(2); }
 
@@ -176,6 +179,7 @@ PropertyChange PropertyFields::draw_number(const Property& row) {
 PropertyChange PropertyFields::draw_text(const Property& row) {
   FieldStyle style;
   style.width_px = begin_field(row);
+  style.select_all = true;
   style.mixed = row.mixed;
   style.tip = {{}, {}, row.unavailable};
   const std::string now = row.mixed || !row.value.text() ? std::string() : *row.value.text();
@@ -241,7 +245,9 @@ PropertyChange PropertyFields::draw_colour(const Property& row) {
   }
   const std::string text = row.mixed ? "—" : colour_text(color);
   list.AddText({min.x + swatch.x + px(8), min.y + ImGui::GetStyle().FramePadding.y}, theme::text, text.c_str());
-  ImGui::SetNextWindowPos({std::max(min.x + size.x - px(252), px(4)), min.y + size.y + px(3)});
+  // Left of the panel, so that the swatch stays in sight; as far up as the window's end asks for.
+  const float lowest = std::max(ImGui::GetIO().DisplaySize.y - px(picker_height), px(4));
+  ImGui::SetNextWindowPos({std::max(ImGui::GetWindowPos().x - px(picker_width + 26), px(4)), std::min(min.y, lowest)});
   if (!ImGui::BeginPopup(popup.c_str(), ImGuiWindowFlags_NoMove)) return {};
   const NameScope scope(row.id);
   PropertyChange change = draw_picker(row);
@@ -255,7 +261,7 @@ PropertyChange PropertyFields::draw_picker(const Property& row) {
   const glm::dvec3 now = rgb_of(row.value);
   const glm::dvec3 coded = coded_from_linear(now);
   float channels[3] = {static_cast<float>(coded.r), static_cast<float>(coded.g), static_cast<float>(coded.b)};
-  ImGui::SetNextItemWidth(px(232));
+  ImGui::SetNextItemWidth(px(picker_width));
   PropertyChange change;
   if (ImGui::ColorPicker3("##picker", channels,
                           ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoSidePreview |
@@ -267,7 +273,8 @@ PropertyChange PropertyFields::draw_picker(const Property& row) {
   const std::string id = row.id + "/code";
   std::string text = typing_id_ == id ? typed_ : colour_text(now);
   FieldStyle style;
-  style.width_px = px(232);
+  style.width_px = px(picker_width);
+  style.select_all = true;
   const TextChange typed = text_field("code", text, style);
   if (typed.changed) {
     typing_id_ = id;

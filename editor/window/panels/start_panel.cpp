@@ -175,7 +175,7 @@ class StartPanel final : public Panel {
     if (right - left > px(40)) {
       ImGui::PushFont(small_font());
       const std::string shown = elided(folder, right - left);
-      ImGui::GetWindowDrawList()->AddText({left, min.y + px(4)}, theme::faint, shown.c_str());
+      ImGui::GetWindowDrawList()->AddText({left, min.y + px(4)}, theme::dim, shown.c_str());
       ImGui::PopFont();
     }
     return pressed;

@@ -26,7 +26,7 @@ class TimelinePanel final : public Panel {
   void draw(Session& session, const PaneRect& rect) override {
     if (!session.has_document()) return;
     const float middle = std::floor(rect.min.y + 0.5f * (rect.size.y - ImGui::GetFrameHeight()));
-    ImGui::SetCursorScreenPos({rect.min.x + px(8), middle});
+    ImGui::SetCursorScreenPos({rect.min.x + px(10), middle});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {px(2), 0.0f});
     if (session.project().frames.count <= 1) {
       draw_still(session);

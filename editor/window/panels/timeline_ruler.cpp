@@ -68,12 +68,12 @@ TimelineRuler::Mark TimelineRuler::mark_at(const Session& session, glm::vec2 at)
   float off = px(reach);
   const auto consider = [&](Mark mark) {
     const float apart = std::abs(x_of(mark.time_s * rate_hz_) - at.x);
-    if (apart > off) return;
+    if (apart >= off) return;
     off = apart;
     nearest = std::move(mark);
   };
+  for (const Keyframe& key : keys_of(session)) consider({Held::key, key.time_s, {}});  // drawn above the cues
   for (const Cue& cue : session.project().cues) consider({Held::cue, cue.time_s, cue.name});
-  for (const Keyframe& key : keys_of(session)) consider({Held::key, key.time_s, {}});
   return nearest;
 }
 
@@ -270,7 +270,9 @@ void TimelineRuler::draw_menu(Session& session) {
   {
     const NameScope scope("menu");
     if (menu_for_.kind == Held::cue) {
-      if (menu_row("rename cue", "Rename cue…")) {
+      ListRowStyle style;
+      style.icon = "rename";
+      if (menu_row("rename cue", "Rename cue…", style)) {
         renamed_cue_ = typed_ = menu_for_.cue;
         open_rename_ = true;
       }
@@ -296,6 +298,7 @@ void TimelineRuler::draw_rename(Session& session) {
   FieldStyle style;
   style.width_px = px(190);
   style.focus = first || ImGui::IsWindowAppearing();
+  style.select_all = true;
   const TextChange change = text_field("cue name", typed_, style);
   const bool left = ImGui::IsItemDeactivated();
   if ((change.finished || left) && !key_pressed(ImGuiKey_Escape) && typed_ != renamed_cue_) {

@@ -50,9 +50,11 @@ void EyePane::draw(Session& session, const PaneRect& rect) {
   const double shrink = std::min(1.0, widest_px / std::max(rect.size.x, 1.0f));
   session.want_eye_size(static_cast<int>(rect.size.x * shrink), static_cast<int>(rect.size.y * shrink));
   draw_picture(plane_.picture(), rect.min, rect.size);
-  if (!session.eye_picture()) {
-    draw_hint(rect, session.project().objects.empty() ? "Add an object: the eye sees it here, sharp or blurred."
-                                                      : "The eye sees the show once it is compiled.");
+  const Project& project = session.project();
+  if (project.surfaces.empty() || project.objects.empty() || !session.eye_picture()) {
+    draw_hint(rect, project.surfaces.empty()  ? "The eye sees what falls on a surface: add one first."
+                    : project.objects.empty() ? "Add an object: the eye sees it here, sharp or blurred."
+                                              : "The eye sees the show once it is compiled.");
     return;
   }
   answer_mouse(session, rect);

@@ -72,13 +72,9 @@ glm::vec2 small_text_size(std::string_view text) {
   return from_im(font->CalcTextSizeA(font->FontSize, 1e6f, 0.0f, text.data(), text.data() + text.size()));
 }
 
-void small_text(ImDrawList& list, glm::vec2 at, std::string_view text, std::uint32_t colour, float width_px) {
+void small_text(ImDrawList& list, glm::vec2 at, std::string_view text, std::uint32_t colour) {
+  if (text.empty()) return;  // for ImGui an end of null is no end
   ImFont* font = small_font();
-  if (width_px > 0.0f && small_text_size(text).x > width_px) {
-    const ImVec4 clip(at.x, at.y, at.x + width_px, at.y + 2.0f * font->FontSize);
-    list.AddText(font, font->FontSize, to_im(at), colour, text.data(), text.data() + text.size(), 0.0f, &clip);
-    return;
-  }
   list.AddText(font, font->FontSize, to_im(at), colour, text.data(), text.data() + text.size());
 }
 

@@ -40,8 +40,8 @@ class PaneTooltip {
 /// Words in the middle of an empty pane.
 void draw_hint(const PaneRect& rect, std::string_view words);
 
-/// In the small font, cut to `width_px` where that is above 0.
-void small_text(ImDrawList& list, glm::vec2 at, std::string_view text, std::uint32_t colour, float width_px = 0.0f);
+/// In the small font.
+void small_text(ImDrawList& list, glm::vec2 at, std::string_view text, std::uint32_t colour);
 glm::vec2 small_text_size(std::string_view text);
 
 /// An image at an eighth of its size, three codes a pixel.

@@ -108,9 +108,11 @@ void ProjectorPane::draw(Session& session, const PaneRect& rect) {
   const float strip = strip_height(rect);
   const PaneRect area{rect.min, {rect.size.x, rect.size.y - strip}};
   draw_picture(plane_.picture(), area.min, area.size);
-  if (!session.slices()) {
-    draw_hint(rect, session.project().surfaces.empty() ? "Add a surface: the projector's images fall on it."
-                                                       : "The images appear once they are compiled.");
+  const Project& project = session.project();
+  if (project.surfaces.empty() || project.objects.empty() || !session.slices()) {
+    draw_hint(rect, project.surfaces.empty()  ? "Add a surface: the projector's images fall on it."
+                    : project.objects.empty() ? "Add an object: each slice shows its part of it."
+                                              : "The images appear once they are compiled.");
     return;
   }
   answer_mouse(session, area);
@@ -234,7 +236,9 @@ void ProjectorPane::draw_strip(Session& session, const PaneRect& rect) {
                         image == image_of(*slices, session.view()) && slots[s].eye == session.view().side;
     const std::uint32_t frame = chosen ? theme::accent : ImGui::IsItemHovered() ? theme::dim : theme::line;
     list.AddRect(to_im(min), to_im(min + size), frame, 0.0f, 0, px(chosen ? 2 : 1));
-    small_text(list, {min.x, min.y + size.y + px(2)}, slot_label(slots[s]), chosen ? theme::text : theme::dim, width);
+    const std::string words = slot_label(slots[s]);
+    if (small_text_size(words).x > width) continue;  // half a number says nothing; the tooltip has it
+    small_text(list, {min.x, min.y + size.y + px(2)}, words, chosen ? theme::text : theme::dim);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <imgui.h>
 #include <imgui_internal.h>
@@ -74,7 +75,7 @@ std::optional<glm::dvec2> RoomHands::sheet_knob_px(const RoomFrame& frame, const
   const auto left = pixel_of(frame.view, sheet.corners_m[3]);
   const auto right = pixel_of(frame.view, sheet.corners_m[2]);
   if (!left || !right) return std::nullopt;
-  return 0.5 * (*left + *right) - glm::dvec2(0.0, 14.0 * frame.scale);
+  return 0.5 * (*left + *right) - glm::dvec2(0.0, 20.0 * frame.scale);
 }
 
 std::optional<PickHit> RoomHands::pick(RoomFrame& frame, const glm::dvec2& pixel) const {
@@ -121,20 +122,24 @@ void RoomHands::see_depth(RoomFrame& frame) {
 }
 
 void RoomHands::see_hot(RoomFrame& frame, const glm::dvec2& pixel) {
-  hot_handle = handle_at(handles, pixel, frame.scale);
-  hot_sheet = false;
+  hot_handle.reset();
   hot_thing.reset();
-  if (hot_handle) return;
-  if (depth && depth->sheet) {
-    const auto knob = sheet_knob_px(frame, *depth->sheet);
+  hot_sheet = false;
+  const DepthSheet* sheet = depth && depth->sheet && frame.has_camera() ? &*depth->sheet : nullptr;
+  // The knob before the handles: it is small, and where an object is, its handles are all around.
+  if (sheet != nullptr) {
+    const auto knob = sheet_knob_px(frame, *sheet);
     hot_sheet = knob && glm::length(pixel - *knob) <= knob_reach_px * frame.scale;
-    for (std::size_t i = 0; i < 4 && !hot_sheet; ++i) {
-      const auto a = pixel_of(frame.view, depth->sheet->corners_m[i]);
-      const auto b = pixel_of(frame.view, depth->sheet->corners_m[(i + 1) % 4]);
-      hot_sheet = a && b && distance_to_edge(pixel, *a, *b) <= 4.0 * frame.scale;
-    }
     if (hot_sheet) return;
   }
+  hot_handle = handle_at(handles, pixel, frame.scale);
+  if (hot_handle) return;
+  for (std::size_t i = 0; i < 4 && sheet != nullptr && !hot_sheet; ++i) {
+    const auto a = pixel_of(frame.view, sheet->corners_m[i]);
+    const auto b = pixel_of(frame.view, sheet->corners_m[(i + 1) % 4]);
+    hot_sheet = a && b && distance_to_edge(pixel, *a, *b) <= 4.0 * frame.scale;
+  }
+  if (hot_sheet) return;
   if (const auto hit = pick(frame, pixel)) hot_thing = hit->thing;
 }
 
@@ -150,6 +155,7 @@ void RoomHands::begin(RoomFrame& frame, const glm::dvec2& pixel) {
   start_px_ = pixel;
   last_px_ = pixel;
   typed_.clear();
+  asked_.clear();
   amount.clear();
   done_by_keys_ = false;
   made_step_ = false;
@@ -189,7 +195,18 @@ void RoomHands::leave_press(RoomFrame& frame, const glm::dvec2& pixel) {
   drag_handle(frame, pixel);
 }
 
+/// Whether pointer, typed numbers or held keys differ from when this was last asked.
+bool RoomHands::is_news(const glm::dvec2& pixel) {
+  const ImGuiIO& io = ImGui::GetIO();
+  std::string asks = fixed_text(pixel.x, 2) + " " + fixed_text(pixel.y, 2) + (io.KeyShift ? " shift " : " ") +
+                     (io.KeyCtrl ? "ctrl " : "") + typed_.text();
+  const bool differs = asks != asked_;
+  asked_ = std::move(asks);
+  return differs;
+}
+
 void RoomHands::drag_handle(RoomFrame& frame, const glm::dvec2& pixel) {
+  if (!is_news(pixel)) return;
   const DragWish wish = wish_of(frame.session.view());
   const Dragged dragged =
       typed_.empty() ? drag_to(handle_drag_, pixel, wish) : drag_by(handle_drag_, typed_.numbers(), wish);
@@ -203,6 +220,7 @@ void RoomHands::drag_handle(RoomFrame& frame, const glm::dvec2& pixel) {
 }
 
 void RoomHands::drag_depth(RoomFrame& frame, const glm::dvec2& pixel) {
+  if (!is_news(pixel)) return;
   const bool snap = frame.session.view().snap != ImGui::GetIO().KeyCtrl;
   double vergence_d = vergence_dragged_d(depth_drag_, pixel, snap ? depth_snap_d : 0.0);
   const std::vector<double> numbers = typed_.numbers();

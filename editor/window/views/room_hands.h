@@ -57,6 +57,7 @@ class RoomHands {
   void leave_press(RoomFrame& frame, const glm::dvec2& pixel);
   void drag_handle(RoomFrame& frame, const glm::dvec2& pixel);
   void drag_depth(RoomFrame& frame, const glm::dvec2& pixel);
+  bool is_news(const glm::dvec2& pixel);
   void hold_handle(RoomFrame& frame, Handle handle, const glm::dvec2& pixel);
   void take_keys(RoomFrame& frame);
   void cancel(RoomFrame& frame);
@@ -74,6 +75,7 @@ class RoomHands {
   TypedNumbers typed_;
   bool done_by_keys_ = false;  ///< Enter or Escape ended the drag; the button is still down
   bool made_step_ = false;
+  std::string asked_;  ///< what the last step of the drag was made from: a hand that rests makes no more of them
   std::shared_ptr<const Stage> depth_stage_;
 };
 

@@ -158,9 +158,9 @@ void draw_first_steps(const RoomFrame& frame, RoomDrawing& drawing) {
   if (project.projectors.empty()) {
     what = "Add a projector: it is what lights the room.";
   } else if (project.surfaces.empty()) {
-    what = "Add a surface for the light to fall on: Ctrl+P, \u201cAdd a plane\u201d.";
+    what = "Add a surface to project on.";
   } else if (project.objects.empty()) {
-    what = "Drop a mesh here, or add an object with Ctrl+P: it comes into focus where it stands.";
+    what = "Add an object, or drop a mesh here.";
   }
   if (what == nullptr) return;
   const glm::dvec2 place(0.5 * frame.view.size_px.x, frame.view.size_px.y - 24.0 * frame.scale);

@@ -160,13 +160,16 @@ void draw_measure(const RoomFrame& frame, const RoomHands& hands, RoomDrawing& d
   if (hands.measure_m.empty()) return;
   for (const glm::dvec3& point_m : hands.measure_m) {
     if (const auto pixel = pixel_of(frame.view, point_m)) {
-      drawing.list().AddCircleFilled(frame.on_window(*pixel), static_cast<float>(3.5 * frame.scale), theme::text);
+      const ImVec2 at = frame.on_window(*pixel);
+      drawing.list().AddCircleFilled(at, static_cast<float>(5.0 * frame.scale), theme::panel);
+      drawing.list().AddCircleFilled(at, static_cast<float>(3.5 * frame.scale), theme::accent);
     }
   }
   if (hands.measure_m.size() < 2) return;
   const glm::dvec3& a_m = hands.measure_m[0];
   const glm::dvec3& b_m = hands.measure_m[1];
-  drawing.line(a_m, b_m, theme::text, 1.5);
+  drawing.line(a_m, b_m, theme::panel, 4.0);
+  drawing.line(a_m, b_m, theme::accent, 2.0);
   const Measured between = measured(frame.sight(), a_m, b_m);
   std::string words = fixed_text(between.distance_m, 3) + " m";
   if (between.difference_d) words += "   " + fixed_text(std::abs(*between.difference_d), 2) + " D";

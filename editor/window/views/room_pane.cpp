@@ -23,26 +23,22 @@ RoomPane::Shown RoomPane::shown_of(const Session& session, glm::ivec2 size_px) {
           state.look_through, state.show_sheets, state.tint_by_slice};
 }
 
-bool RoomPane::rest_due() const {
-  return shown_ && !at_rest_ && !hands_.busy() && Clock::now() - moved_at_ >= still_for;
+bool RoomPane::at_ease(const Session& session) const {
+  return !hands_.busy() && !session.dragging() && !session.view().playing && Clock::now() - moved_at_ >= still_for;
 }
 
 bool RoomPane::dirty(const Session& session, glm::ivec2 size_px) const {
   if (!scene_) return false;
-  return !shown_ || *shown_ != shown_of(session, size_px) || scene_->has_news() || rest_due();
+  return !shown_ || *shown_ != shown_of(session, size_px) || scene_->has_news() || (!at_rest_ && at_ease(session));
 }
 
 void RoomPane::render(const Session& session, glm::ivec2 size_px, double scale) {
   if (!scene_) return;
   const Shown wanted = shown_of(session, size_px);
-  const bool changed = !shown_ || *shown_ != wanted;
-  const bool news = scene_->has_news();
   scene_->take(session);
-  const bool fine = !changed && !news;
+  at_rest_ = at_ease(session);
   const double pixels = 4.0 * static_cast<double>(size_px.x) * static_cast<double>(size_px.y);
-  scene_->render(wanted.view, session, fine && pixels <= most_pixels ? 2 : 1, scale);
-  if (changed || news) moved_at_ = Clock::now();
-  at_rest_ = fine;
+  scene_->render(wanted.view, session, at_rest_ && pixels <= most_pixels ? 2 : 1, scale);
   shown_ = wanted;
 }
 
@@ -61,6 +57,11 @@ void RoomPane::draw(Session& session, const PaneRect& rect) {
   RoomFrame frame{session, *scene_, stage ? *stage : nothing, room_view(session, size_px), rect, ui_scale()};
   hands_.follow(frame, ImGui::IsItemHovered(), ImGui::IsItemActive());
   frame.view = room_view(session, size_px);  // the hand may have moved it
+  if (frame.view != seen_view_ || stage != seen_stage_) {
+    seen_view_ = frame.view;
+    seen_stage_ = stage;
+    moved_at_ = Clock::now();
+  }
   overlay_.draw(frame, hands_);
   draw_room_toolbar(frame);
   if (!at_rest_ || scene_->waits_for_meshes()) want_frame_within(std::chrono::duration<double>(still_for).count());

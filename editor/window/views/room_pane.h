@@ -38,12 +38,15 @@ class RoomPane : public Pane {
   };
 
   static Shown shown_of(const Session& session, glm::ivec2 size_px);
-  bool rest_due() const;
+  /// Whether nothing has moved for a while: time for the fine picture.
+  bool at_ease(const Session& session) const;
 
   std::unique_ptr<RoomScene> scene_ = std::make_unique<RoomScene>();
   RoomHands hands_;
   RoomOverlay overlay_;
-  std::optional<Shown> shown_;
+  std::optional<Shown> shown_;  ///< what was rendered
+  RoomView seen_view_;          ///< what was asked for last
+  std::shared_ptr<const Stage> seen_stage_;
   bool at_rest_ = false;  ///< what is shown is the fine picture
   Clock::time_point moved_at_;
 };

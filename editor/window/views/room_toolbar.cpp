@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include <imgui.h>
+
 #include "editor/session/command.h"
 #include "editor/window/base/chips.h"
 #include "editor/window/base/widgets.h"
@@ -29,7 +31,8 @@ void menu_row(Session& session, std::string_view id, bool on) {
   if (command == nullptr) return;
   const std::string unavailable = command->unavailable(session);
   ListRowStyle style;
-  style.icon = on ? "check" : "";
+  style.icon = "check";
+  style.icon_colour = on ? theme::text : theme::with_alpha(theme::text, 0.0);  // its room stays: titles in one line
   style.right = command->shortcut;
   style.tip = {command->help, command->shortcut, unavailable};
   if (list_row(id, command->title, style).clicked) {
@@ -52,9 +55,13 @@ std::string_view space_name(HandleSpace space) {
 
 void draw_view_menu(RoomFrame& frame) {
   const ViewState& state = frame.session.view();
-  ImGui::SetNextWindowSize({px(280), 0.0f});
-  if (!ImGui::BeginPopup("room-view")) return;
-  for (const std::string_view id : {"view.home", "view.selection", "view.front", "view.right", "view.top"}) {
+  ImGui::SetNextWindowPos({ImGui::GetItemRectMin().x, ImGui::GetItemRectMax().y + px(4)});
+  ImGui::SetNextWindowSize({px(290), 0.0f});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {px(6), px(6)});  // panes have none
+  const bool open = ImGui::BeginPopup("room-view");
+  ImGui::PopStyleVar();
+  if (!open) return;
+  for (const std::string_view id : {"view.home", "view.zoom-selection", "view.front", "view.right", "view.top"}) {
     menu_row(frame.session, id, false);
   }
   ImGui::Separator();

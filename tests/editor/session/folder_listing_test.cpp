@@ -52,14 +52,15 @@ TEST_CASE("a folder lists folders first, then what is wanted, by name") {
   folder.file("b.GLB");
   folder.file("a.focal");
   folder.file("c.txt");
+  folder.file("d.png");
   folder.file(".hidden/x");
   folder.file("Zoo/show.focal");
   folder.file("arch/readme");
   using Names = std::vector<std::string>;
   CHECK(names(folder.path, Listed::projects) == Names{"arch", "Zoo", "a.focal"});
-  CHECK(names(folder.path, Listed::meshes) == Names{"arch", "Zoo", "b.GLB"});
+  CHECK(names(folder.path, Listed::assets) == Names{"arch", "Zoo", "b.GLB", "d.png"});
   CHECK(names(folder.path, Listed::folders) == Names{"arch", "Zoo"});
-  CHECK(names(folder.path, Listed::everything) == Names{"arch", "Zoo", "a.focal", "b.GLB", "c.txt"});
+  CHECK(names(folder.path, Listed::everything) == Names{"arch", "Zoo", "a.focal", "b.GLB", "c.txt", "d.png"});
   const auto entries = list_folder(folder.path, Listed::projects);
   CHECK_FALSE((*entries)[0].project);
   CHECK((*entries)[1].project);

@@ -175,7 +175,7 @@ TEST_CASE("every row of everything sets what it says and reads it back") {
           const Property* again = row_named(groups, row.id);
           REQUIRE(again);
           CHECK(near(again->value, value));
-          CHECK_FALSE(words_for(row, things).empty());
+          CHECK_FALSE(words_for(row, things, value).empty());
           ++set_rows;
         }
       }
@@ -402,6 +402,14 @@ TEST_CASE("colours are written as people know them") {
   CHECK(colour_text(*typed_colour("f80")) == "#ff8800");
   CHECK(colour_text({7.0, -1.0, 0.0}) == "#ff0000");
   for (const char* wrong : {"", "#", "12345", "#12345g", "#1234567", "-12345"}) CHECK_FALSE(typed_colour(wrong));
+}
+
+TEST_CASE("what was done is said in words") {
+  const auto groups = rows_of(rich_project(), {{"slices", ""}});
+  CHECK(words_for(*row_named(groups, "slice 1"), {{"slices", ""}}, Value(0.2)) == "Set slice 1 of Slices");
+  CHECK(words_for(*row_named(groups, "slice 1"), {{"slices", ""}}, Value()) == "Remove slice 1 of Slices");
+  const std::vector<Thing> two{{"objects", "box"}, {"objects", "ball"}};
+  CHECK(words_for(*row_named(rows_of(rich_project(), two), "position x"), two, Value(0.2)) == "Move 2 things");
 }
 
 TEST_CASE("titles say what it is") {

@@ -71,7 +71,8 @@ TEST_CASE("bounds stand in the world") {
   CHECK(ball.max_m.z == doctest::Approx(-0.4).epsilon(0.01));
   const Bounds all = stage_bounds(stage, {}, true);
   CHECK(all.min_m.z == doctest::Approx(-1.0));
-  CHECK(all.max_m.z == doctest::Approx(0.0));  // the eyes
+  CHECK(all.max_m.z == doctest::Approx(0.18));  // the back of the head
+  CHECK(stage_bounds(Stage{}, {}, true).min_m.z == doctest::Approx(-0.5));
   CHECK(stage_bounds(Stage{}).empty());
 }
 

@@ -37,6 +37,8 @@ std::string bytes_of(const std::filesystem::path& path) {
 TEST_CASE("what was written comes back in order") {
   const Folder folder;
   const auto path = folder.path / "a.journal";
+  { REQUIRE(Journal::start(path, base).ok()); }
+  CHECK_FALSE(std::filesystem::exists(path));  // nothing happened, nothing is left
   const std::vector<JournalRecord> records{step(60), step(61, Joining::continues_last), JournalJump{0}, step(62)};
   {
     auto journal = Journal::start(path, base);
