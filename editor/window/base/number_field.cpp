@@ -53,28 +53,22 @@ NumberChange take_typed(double& value, const NumberStyle& style) {
   return {changed, changed};
 }
 
-/// Whether ImGui's text input could take the keyboard in this frame: not where the field is out of sight, and not in
-/// the frame of a key that would end it at once (it asserts that what begins goes on).
-bool can_begin(const ImRect& box) {
-  for (const ImGuiKey key : {ImGuiKey_Enter, ImGuiKey_KeyPadEnter, ImGuiKey_Escape}) {
-    if (ImGui::IsKeyPressedMap(key)) return false;
-  }
-  return ImGui::IsRectVisible(box.Min, box.Max);
-}
-
 NumberChange type_into(const ImRect& box, ImGuiID id, const std::string& name, double& value,
                        const NumberStyle& style) {
   ImGuiContext& context = *ImGui::GetCurrentContext();
   hand.typing_frame = ImGui::GetFrameCount();
-  if (hand.fresh && !can_begin(box)) {
-    hand.typing = 0;
-    return {};
+  if (hand.fresh) {
+    ImGui::ClearActiveID();  // the button that was pressed has the same id
+    context.NavActivateId = context.NavActivateInputId = id;
   }
-  if (hand.fresh) context.NavActivateId = context.NavActivateInputId = id;
   hand.fresh = false;
   ImGuiInputTextFlags flags = ImGuiInputTextFlags_AutoSelectAll;
   flags |= ImGuiInputTextFlags_NoMarkEdited;
-  ImGui::TempInputText(box, id, name.c_str(), hand.text.data(), static_cast<int>(hand.text.size()), flags);
+  flags |= ImGuiInputTextFlags_MergedItem;
+  context.CurrentWindow->DC.CursorPos = box.Min;
+  // Not TempInputText, which asserts that the field gets the keyboard at once: a key or a press in the same frame, or a
+  // field out of sight, may keep it from that.
+  ImGui::InputTextEx(name.c_str(), nullptr, hand.text.data(), static_cast<int>(hand.text.size()), box.GetSize(), flags);
   if (context.ActiveId == id) return {};
   hand.typing = 0;
   const bool refused = ImGui::IsKeyPressedMap(ImGuiKey_Escape);

@@ -47,7 +47,17 @@ bool status_text(std::string_view name, const StatusText& status) {
     draw_text(list, {x, y}, status.icon_colour, glyph);
     x += px(icon_room);
   }
+<<<<<<< HEAD
   draw_text(list, {x, y}, status.text_colour, status.text);
+=======
+<<<<<<< HEAD
+  draw_text(list, {x, y}, status.text_colour, status.text);
+=======
+  if (!status.text.empty()) {  // ImGui would measure a null text
+    list.AddText({x, y}, status.text_colour, status.text.data(), status.text.data() + status.text.size());
+  }
+>>>>>>> main
+>>>>>>> window
   if (status.caret) {
     const std::string_view caret = icon("down");
     list.AddText(small_font(), std::round(small_font()->FontSize * 0.75f), {min.x + size.x - px(caret_room), y + px(3)},
