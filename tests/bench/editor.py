@@ -65,6 +65,34 @@ def many_objects(folder, count):
     (folder / "many/many.focal").write_text(json.dumps(project))
 
 
+def million_triangles(folder):
+    """first-light on a gently waved screen of a million triangles."""
+    import json
+    import math
+    import struct
+
+    side = 708
+    vertices, faces = bytearray(), bytearray()
+    for row in range(side):
+        for column in range(side):
+            x, y = 0.6 * column / (side - 1) - 0.3, 0.44 * row / (side - 1) - 0.22
+            vertices += struct.pack("<fff", x, y, 0.005 * math.sin(30 * x) * math.sin(30 * y))
+    for row in range(side - 1):
+        for column in range(side - 1):
+            a = row * side + column
+            faces += struct.pack("<BiiiBiii", 3, a, a + 1, a + side + 1, 3, a, a + side + 1, a + side)
+    count = 2 * (side - 1) ** 2
+    header = (
+        f"ply\nformat binary_little_endian 1.0\nelement vertex {side * side}\nproperty float x\nproperty float y\n"
+        f"property float z\nelement face {count}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
+    (folder / "million/assets").mkdir(parents=True)
+    (folder / "million/assets/wave.ply").write_bytes(header.encode() + vertices + faces)
+    project = json.loads((folder / "projects/first-light/first-light.focal").read_text())
+    project["surfaces"][0]["mesh"] = {"file": "assets/wave.ply"}
+    (folder / "million/million.focal").write_text(json.dumps(project))
+
+
 def idle_share(editor, folder):
     """Of one core, over four seconds in which nothing happens."""
     process = subprocess.Popen([editor, "projects/first-light"], cwd=folder, env=environment_in(folder))
@@ -102,6 +130,10 @@ def main():
             report(name, play(editor, lines, folder))
         many_objects(folder, 500)
         report("orbit, 500 objects more", play(editor, opened("many") + [STEPS[0][1]], folder))
+        million_triangles(folder)
+        said = play(editor, opened("million") + ["select objects rabbit", STEPS[0][1], STEPS[1][1]], folder).splitlines()
+        report("orbit, a million triangles", said[-2])
+        report("drag a number, a million triangles", said[-1])
         print(f"idle: {100 * idle_share(editor, folder):.1f} % of one core")
 
 
