@@ -201,7 +201,8 @@ class OutlinePanel final : public Panel {
     const float width = ImGui::GetContentRegionAvail().x;
     const float toggle = px(22);
     ListRowStyle style;
-    style.icon = row.kind == OutlineRow::Kind::group ? (row.open ? "down" : "collapse") : row.icon;
+    style.icon = row.icon;
+    if (row.kind == OutlineRow::Kind::group) style.icon = row.open ? "down" : "collapse";
     style.selected = is_selected(session, row);
     style.icon_colour = row.hidden ? theme::faint : style.selected ? theme::text : theme::dim;
     style.text_colour = row.hidden ? theme::dim : theme::text;
