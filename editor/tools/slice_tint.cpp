@@ -73,12 +73,15 @@ double wanted_power_d(const Project& project, const Depth& depth, double axial_m
   return project.slices.powers_d[static_cast<std::size_t>(std::clamp(depth.index, 0, last))];
 }
 
+constexpr glm::dvec3 no_slice(0.6);
+
 }  // namespace
 
 glm::dvec3 slice_colour(const std::vector<double>& powers_d, std::size_t slice) {
   constexpr std::array<glm::dvec3, 5> ramp{glm::dvec3(0.30, 0.56, 1.00), glm::dvec3(0.20, 0.76, 0.74),
                                            glm::dvec3(0.56, 0.82, 0.34), glm::dvec3(0.95, 0.76, 0.30),
                                            glm::dvec3(0.93, 0.42, 0.36)};
+  if (slice >= powers_d.size()) return no_slice;  // what is still shown may be of a list that was longer
   const auto below =
       std::count_if(powers_d.begin(), powers_d.end(), [&](double power_d) { return power_d < powers_d[slice]; });
   const double place = powers_d.size() < 2 ? 0.0

@@ -10,7 +10,7 @@
 namespace focalstage {
 
 /// The colour that stands for slice `slice` (in the project's list): blue for the lowest power, the nearest picture,
-/// over green to red. sRGB, 0..1.
+/// over green to red; gray where there is no such slice. sRGB, 0..1.
 glm::dvec3 slice_colour(const std::vector<double>& powers_d, std::size_t slice);
 
 using Rgb = glm::u8vec3;

@@ -101,8 +101,9 @@ void draw_frusta(const RoomFrame& frame, RoomDrawing& drawing) {
 }
 
 void draw_picture_edge(const RoomFrame& frame, RoomDrawing& drawing) {
-  if (frame.session.view().look_through != LookThrough::projector) return;
-  const Projector& projector = frame.session.project().projectors.front();
+  const std::vector<Projector>& projectors = frame.session.project().projectors;
+  if (frame.session.view().look_through != LookThrough::projector || projectors.empty()) return;
+  const Projector& projector = projectors.front();
   const glm::dvec2 size(projector.width_px, projector.height_px);
   const double zoom = std::min(frame.view.size_px.x / size.x, frame.view.size_px.y / size.y);
   const glm::dvec2 low = 0.5 * (frame.view.size_px - zoom * size);

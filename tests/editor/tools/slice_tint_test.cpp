@@ -37,6 +37,11 @@ Rgb tint_of(const Project& project) {
 
 }  // namespace
 
+TEST_CASE("a slice that is no more has no colour of its own") {
+  CHECK(slice_colour({-1.0, 0.0}, 2) == slice_colour({}, 0));
+  CHECK(slice_colour({-1.0, 0.0}, 1) != slice_colour({-1.0, 0.0}, 0));
+}
+
 TEST_CASE("what wants a slice's power has that slice's colour, what lies between is mixed") {
   const std::vector<double> powers_d{1.0, -1.0, 0.0};
   CHECK(tint_of(plane_before_screen(1.0 / 3.0)) == bytes(slice_colour(powers_d, 1)));  // 2 D - 3 D = -1 D
