@@ -130,13 +130,11 @@ void Preview::State::check_plan(const PreviewWish& wish) {
 }
 
 void Preview::State::check_measured(const PreviewWish& wish, const CompiledSlices& compiled) {
-  const auto before = copy_of(checked);
-  if (before && before->revision == wish.revision && before->measured) return;
-  auto made = std::make_shared<CheckedProject>();
-  made->revision = wish.revision;
+  const auto plan = copy_of(checked);
+  // Without a plan of this revision the project was closed meanwhile.
+  if (!plan || plan->revision != wish.revision || plan->measured) return;
+  auto made = std::make_shared<CheckedProject>(*plan);
   made->measured = true;
-  made->images = image_plan(*wish.project);
-  made->schedule = make_schedule(*wish.project, made->images);
   Measured measured;
   measured.frames.push_back(compiled.measure);
   const CompileSettings& settings = compiled.settings;
