@@ -14,24 +14,14 @@ void each_file(const Things& things, const std::string& list, Use&& use) {
   }
 }
 
-/// A project that refers to nothing but `file`.
-Project only(const std::string& file) {
-  Project project;
-  Object object;
-  object.name = "object";
-  object.mesh.shape = FileMesh{file};
-  project.objects.push_back(std::move(object));
-  return project;
-}
-
 }  // namespace
 
-std::set<std::string> mesh_files(const Project& project) {
-  std::set<std::string> files;
-  const auto add = [&](const std::string& file, const std::string&) { files.insert(file); };
-  each_file(project.surfaces, "surfaces", add);
-  each_file(project.objects, "objects", add);
-  return files;
+Result<LoadedAssets> load_mesh_file(const std::string& reference, const std::filesystem::path& folder) {
+  Project only;
+  only.objects.emplace_back();
+  only.objects[0].name = "object";
+  only.objects[0].mesh.shape = FileMesh{reference};
+  return load_assets(only, folder);
 }
 
 AssetShelf::Stamp AssetShelf::stamp_of(const std::filesystem::path& file) {
@@ -52,7 +42,7 @@ bool AssetShelf::is_current(const Entry& entry) const {
 AssetShelf::Entry AssetShelf::read_one(const std::filesystem::path& folder, const std::string& reference) {
   Entry entry;
   entry.files[reference] = stamp_of(folder / reference);
-  auto loaded = load_assets(only(reference), folder);
+  auto loaded = load_mesh_file(reference, folder);
   if (!loaded) {
     entry.fault = loaded.fault();
     return entry;
@@ -60,6 +50,14 @@ AssetShelf::Entry AssetShelf::read_one(const std::filesystem::path& folder, cons
   for (const AssetFile& file : loaded->files) entry.files[file.path] = stamp_of(folder / file.path);
   entry.model = loaded->assets.models.at(reference);
   return entry;
+}
+
+std::vector<std::string> AssetShelf::unread(const Project& project) const {
+  std::vector<std::string> references;
+  for (const std::string& file : mesh_files(project)) {
+    if (!entries_.contains(file)) references.push_back(file);
+  }
+  return references;
 }
 
 std::vector<std::string> AssetShelf::wanted(const Project& project) const {

@@ -38,11 +38,7 @@ fs::path target_file(const fs::path& asked) {
 std::vector<AssetFile> files_of(const Project& project, const fs::path& folder) {
   std::vector<AssetFile> files;
   for (const std::string& reference : mesh_files(project)) {
-    Project only;
-    only.objects.emplace_back();
-    only.objects[0].name = "object";
-    only.objects[0].mesh.shape = FileMesh{reference};
-    auto loaded = load_assets(only, folder);
+    auto loaded = load_mesh_file(reference, folder);
     if (!loaded) continue;
     for (AssetFile& file : loaded->files) {
       const auto same = [&](const AssetFile& other) { return other.path == file.path; };
@@ -68,10 +64,8 @@ fs::path place_for(const fs::path& folder, const std::string& name, const std::v
   }
 }
 
-}  // namespace
-
 /// A picture becomes a plane that carries it.
-static Result<std::string> bring_in_picture(const fs::path& file, const fs::path& project_folder) {
+Result<std::string> bring_in_picture(const fs::path& file, const fs::path& project_folder) {
   const auto bytes = read_file(file, largest_picture);
   if (!bytes) return bytes.fault();
   auto plane = image_plane(*bytes, file);
@@ -83,15 +77,12 @@ static Result<std::string> bring_in_picture(const fs::path& file, const fs::path
   return files[0].path;
 }
 
+}  // namespace
+
 Result<std::string> bring_in(const fs::path& file, const fs::path& project_folder) {
   if (is_picture(file)) return bring_in_picture(file, project_folder);
   const std::string name = file.filename().string();
-  Project only;
-  only.objects.emplace_back();
-  only.objects[0].name = "object";
-  only.objects[0].mesh.shape = FileMesh{name};
-  const fs::path source = fs::absolute(file).parent_path();
-  auto loaded = load_assets(only, source);
+  auto loaded = load_mesh_file(name, fs::absolute(file).parent_path());
   if (!loaded) {
     Fault fault = loaded.fault();
     if (fault.where.starts_with("/objects/0")) fault.where = file.string();

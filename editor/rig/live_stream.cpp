@@ -7,23 +7,6 @@
 #include "io/project/project_file.h"
 
 namespace focalstage {
-namespace {
-
-template <class Things>
-void add_meshes(std::set<std::string>& files, const Things& things) {
-  for (const auto& thing : things) {
-    if (const auto* file = std::get_if<FileMesh>(&thing.mesh.shape)) files.insert(file->file);
-  }
-}
-
-std::set<std::string> meshes_of(const Project& project) {
-  std::set<std::string> files;
-  add_meshes(files, project.surfaces);
-  add_meshes(files, project.objects);
-  return files;
-}
-
-}  // namespace
 
 Status LiveStream::start(RigClient& rig, const LiveWish& wish) {
   auto loaded = load_assets(*wish.project, wish.folder);
@@ -46,7 +29,7 @@ Status LiveStream::show(const LiveWish& wish) {
   }
   if (wish.revision == sent_.revision) return {};
   std::vector<AssetFile> fresh;
-  if (meshes_of(*wish.project) != meshes_of(*sent_.project)) {
+  if (mesh_files(*wish.project) != mesh_files(*sent_.project)) {
     auto loaded = load_assets(*wish.project, wish.folder);
     if (!loaded) return loaded.fault();
     for (AssetFile& file : loaded->files) {

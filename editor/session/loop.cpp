@@ -91,9 +91,7 @@ void tell_of_rig(Session::State& state) {
 
 /// Files that were changed on disk are read again, as if the project had just begun to refer to them.
 void look_at_assets(Session::State& state) {
-  if (state.document && state.jobs.tasks().empty() && !state.document->shelf().wanted(state.project()).empty()) {
-    state.staged_frame = -1;
-  }
+  if (state.document) state.read_files(state.document->shelf().wanted(state.project()));
 }
 
 /// What the link could not do is told once; a project made for another rig is a finding as long as it is.

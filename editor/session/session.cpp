@@ -78,29 +78,31 @@ void Session::State::tidy() {
   if (view.key_time_s && !has_key_at(project(), selection.primary(), *view.key_time_s)) view.key_time_s.reset();
 }
 
+/// Behind the window; until then the rest of the room stands without them.
+void Session::State::read_files(const std::vector<std::string>& wanted) {
+  if (wanted.empty() || reading) return;
+  reading = true;
+  jobs.start("Read " + wanted.front() + (wanted.size() > 1 ? " and others" : ""),
+             [this, folder = document->folder(), wanted](const Jobs::Progress&, std::stop_token) -> Jobs::Finish {
+               auto read = std::make_shared<AssetShelf::Read>(AssetShelf::read(folder, wanted));
+               return [this, folder, read] {
+                 reading = false;
+                 if (!document || document->folder() != folder) return;
+                 document->shelf().put(std::move(*read));
+                 staged_frame = -1;
+                 restage();
+                 wish_preview();
+               };
+             });
+}
+
 void Session::State::restage() {
   if (!document) {
     stage = nullptr;
     return;
   }
   if (staged_revision == revision() && staged_frame == view.frame && stage) return;
-  const std::vector<std::string> wanted = document->shelf().wanted(project());
-  if (!wanted.empty() && !reading) {
-    reading = true;
-    // Files are read behind the window; until then the rest of the room stands without them.
-    jobs.start("Read " + wanted.front() + (wanted.size() > 1 ? " and others" : ""),
-               [this, folder = document->folder(), wanted](const Jobs::Progress&, std::stop_token) -> Jobs::Finish {
-                 auto read = std::make_shared<AssetShelf::Read>(AssetShelf::read(folder, wanted));
-                 return [this, folder, read] {
-                   reading = false;
-                   if (!document || document->folder() != folder) return;
-                   document->shelf().put(std::move(*read));
-                   staged_frame = -1;
-                   restage();
-                   wish_preview();
-                 };
-               });
-  }
+  read_files(document->shelf().unread(project()));
   asset_findings = document->shelf().findings(project());
   const Assets& assets = document->shelf().assets();
   auto stood = focalstage::stage(without_missing(project(), assets), assets, frame_time_s());

@@ -109,6 +109,7 @@ struct Session::State {
 
   /// Drops what is selected but is no more.
   void tidy();
+  void read_files(const std::vector<std::string>& wanted);
   void restage();
   void fit_views();
   void wish_preview();

@@ -41,12 +41,16 @@ Fault placed_in_project(Fault fault, const Reference& reference) {
   return fault;
 }
 
-Result<Assets> read_all(const Project& project, FileSource& source) {
+std::vector<Reference> references_of(const Project& project) {
   std::vector<Reference> references;
   add_references(project.surfaces, "surfaces", references);
   add_references(project.objects, "objects", references);
+  return references;
+}
+
+Result<Assets> read_all(const Project& project, FileSource& source) {
   Assets assets;
-  for (const Reference& reference : references) {
+  for (const Reference& reference : references_of(project)) {
     if (assets.models.contains(reference.path)) continue;
     Result<MeshFile> file = read_from(source, reference.path);
     if (!file) return placed_in_project(file.fault(), reference);
@@ -56,6 +60,12 @@ Result<Assets> read_all(const Project& project, FileSource& source) {
 }
 
 }  // namespace
+
+std::set<std::string> mesh_files(const Project& project) {
+  std::set<std::string> files;
+  for (Reference& reference : references_of(project)) files.insert(std::move(reference.path));
+  return files;
+}
 
 Result<LoadedAssets> load_assets(const Project& project, const std::filesystem::path& folder) {
   FolderSource source(folder);

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct LoadedAssets {
   Assets assets;
   std::vector<AssetFile> files;  ///< every file the project refers to, those a glTF refers to included; by path
 };
+
+/// The mesh files a project refers to, as it writes them.
+std::set<std::string> mesh_files(const Project& project);
 
 /// Reads everything the project refers to below `folder`. Faults: "asset.missing", "asset.invalid", "path.outside".
 Result<LoadedAssets> load_assets(const Project& project, const std::filesystem::path& folder);
