@@ -9,21 +9,15 @@
 #include "editor/document/recent.h"
 #include "io/image/png.h"
 #include "io/project/project_file.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace focalstage;
 namespace fs = std::filesystem;
 
 namespace {
 
-struct Folder {
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "document-XXXXXX").string();
-    path = mkdtemp(pattern.data());
-    folders = {path / "state", path / "config"};
-  }
-  ~Folder() { fs::remove_all(path); }
-  fs::path path;
-  UserFolders folders;
+struct Folder : TemporaryFolder {
+  UserFolders folders{path() / "state", path() / "config"};
 };
 
 Step pupils(double mm) { return {"Set pupils", {{Edit::Kind::set, "viewer", "", "interpupillary_mm", Value(mm)}}}; }
@@ -49,8 +43,8 @@ TEST_CASE("a sample becomes a project of one's own: edited, saved elsewhere, ope
   REQUIRE(document->apply(pupils(61)).ok());
   CHECK(document->unsaved());
   const fs::path first = document->folder();
-  REQUIRE(document->save_as(in.path / "my show").ok());
-  CHECK(document->file() == in.path / "my show" / "my show.focal");
+  REQUIRE(document->save_as(in.path() / "my show").ok());
+  CHECK(document->file() == in.path() / "my show" / "my show.focal");
   CHECK_FALSE(fs::exists(first));
   CHECK_FALSE(document->unsaved());
   REQUIRE(document->undo().ok());
@@ -59,17 +53,17 @@ TEST_CASE("a sample becomes a project of one's own: edited, saved elsewhere, ope
   CHECK_FALSE(document->unsaved());
   document->close();
   CHECK(recoveries(in.folders, recent_projects(in.folders)).empty());
-  const auto again = Document::open(in.path / "my show", in.folders);
+  const auto again = Document::open(in.path() / "my show", in.folders);
   REQUIRE(again.ok());
   CHECK(pupils_of(*again) == 61);
-  CHECK(recent_projects(in.folders) == std::vector<fs::path>{in.path / "my show" / "my show.focal"});
+  CHECK(recent_projects(in.folders) == std::vector<fs::path>{in.path() / "my show" / "my show.focal"});
 }
 
 TEST_CASE("after a crash the edits are offered in words, come back, and Undo reaches behind them") {
   const Folder in;
   {
     auto document = Document::from_sample("first-light", in.folders);
-    REQUIRE(document->save_as(in.path / "show").ok());
+    REQUIRE(document->save_as(in.path() / "show").ok());
     REQUIRE(document->apply(pupils(61)).ok());
     REQUIRE(document->apply(pupils(62), Joining::continues_last).ok());
     REQUIRE(document->apply(pupils(64)).ok());
@@ -87,14 +81,14 @@ TEST_CASE("after a crash the edits are offered in words, come back, and Undo rea
   REQUIRE(back->jump(0).ok());
   CHECK(pupils_of(*back) == 63);
   CHECK_FALSE(back->unsaved());
-  CHECK(load_project(in.path / "show")->project.viewer.interpupillary_mm == 63);
+  CHECK(load_project(in.path() / "show")->project.viewer.interpupillary_mm == 63);
 }
 
 TEST_CASE("a crash twice loses nothing, and opening without recovering keeps the offer") {
   const Folder in;
   {
     auto document = Document::from_sample("first-light", in.folders);
-    REQUIRE(document->save_as(in.path / "show").ok());
+    REQUIRE(document->save_as(in.path() / "show").ok());
     REQUIRE(document->apply(pupils(61)).ok());
   }
   {
@@ -103,7 +97,7 @@ TEST_CASE("a crash twice loses nothing, and opening without recovering keeps the
     REQUIRE(back->apply(pupils(62)).ok());
   }
   {
-    auto opened = Document::open(in.path / "show", in.folders);
+    auto opened = Document::open(in.path() / "show", in.folders);
     REQUIRE(opened.ok());
     CHECK(pupils_of(*opened) == 63);
     opened->close();
@@ -130,23 +124,23 @@ TEST_CASE("a project that was never saved is recovered too, and forgotten for go
 TEST_CASE("two editors do not write one journal") {
   const Folder in;
   auto document = Document::from_sample("first-light", in.folders);
-  REQUIRE(document->save_as(in.path / "show").ok());
-  CHECK(Document::open(in.path / "show", in.folders).fault().code == "journal.held");
+  REQUIRE(document->save_as(in.path() / "show").ok());
+  CHECK(Document::open(in.path() / "show", in.folders).fault().code == "journal.held");
 }
 
 TEST_CASE("imported files travel with the project, and a broken one changes nothing") {
   const Folder in;
-  write(in.path / "away" / "three.obj", triangle);
-  write(in.path / "away" / "broken.obj", "v 0 0 0\nf 1 2 3\n");
+  write(in.path() / "away" / "three.obj", triangle);
+  write(in.path() / "away" / "broken.obj", "v 0 0 0\nf 1 2 3\n");
   auto document = Document::from_sample("", in.folders);
   REQUIRE(document.ok());
-  const auto reference = bring_in(in.path / "away" / "three.obj", document->folder());
+  const auto reference = bring_in(in.path() / "away" / "three.obj", document->folder());
   REQUIRE(reference.ok());
   CHECK(*reference == "assets/three.obj");
-  CHECK(*bring_in(in.path / "away" / "three.obj", document->folder()) == "assets/three.obj");
-  write(in.path / "other" / "three.obj", std::string(triangle) + "# another\n");
-  CHECK(*bring_in(in.path / "other" / "three.obj", document->folder()) == "assets/three-2.obj");
-  const auto broken = bring_in(in.path / "away" / "broken.obj", document->folder());
+  CHECK(*bring_in(in.path() / "away" / "three.obj", document->folder()) == "assets/three.obj");
+  write(in.path() / "other" / "three.obj", std::string(triangle) + "# another\n");
+  CHECK(*bring_in(in.path() / "other" / "three.obj", document->folder()) == "assets/three-2.obj");
+  const auto broken = bring_in(in.path() / "away" / "broken.obj", document->folder());
   REQUIRE_FALSE(broken.ok());
   CHECK(broken.fault().where.find("broken.obj") != std::string::npos);
   CHECK_FALSE(fs::exists(document->folder() / "assets" / "broken.obj"));
@@ -160,11 +154,11 @@ TEST_CASE("imported files travel with the project, and a broken one changes noth
   CHECK(document->shelf().fetch(document->project()));
   CHECK(document->shelf().wanted(document->project()).empty());
   REQUIRE(document->shelf().assets().models.contains("assets/three.obj"));
-  REQUIRE(document->save_as(in.path / "show").ok());
-  CHECK(fs::exists(in.path / "show" / "assets" / "three.obj"));
+  REQUIRE(document->save_as(in.path() / "show").ok());
+  CHECK(fs::exists(in.path() / "show" / "assets" / "three.obj"));
   document->shelf().fetch(document->project());
   CHECK(document->shelf().findings(document->project()).empty());
-  fs::remove(in.path / "show" / "assets" / "three.obj");
+  fs::remove(in.path() / "show" / "assets" / "three.obj");
   CHECK(document->shelf().wanted(document->project()).size() == 1);
   document->shelf().fetch(document->project());
   const auto findings = document->shelf().findings(document->project());
@@ -177,10 +171,10 @@ TEST_CASE("a picture becomes a plane of its shape that shows its colours") {
   const Folder in;
   const std::vector<std::uint8_t> codes{255, 0, 0, 0, 255, 0, 0, 0, 255, 255, 255, 255,
                                         0,   0, 0, 9, 9,   9, 1, 2, 3,   4,   5,   6};
-  REQUIRE(write_png(in.path / "flag.PNG", 4, 2, 3, codes).ok());
+  REQUIRE(write_png(in.path() / "flag.PNG", 4, 2, 3, codes).ok());
   auto document = Document::from_sample("", in.folders);
   REQUIRE(document.ok());
-  const auto reference = bring_in(in.path / "flag.PNG", document->folder());
+  const auto reference = bring_in(in.path() / "flag.PNG", document->folder());
   REQUIRE_MESSAGE(reference.ok(), (reference.ok() ? "" : describe(reference.fault())));
   CHECK(*reference == "assets/flag.glb");
   const auto read = AssetShelf::read(document->folder(), {*reference});
@@ -194,14 +188,14 @@ TEST_CASE("a picture becomes a plane of its shape that shows its colours") {
   CHECK(model->materials[0].texture->width_px == 4);
   CHECK(model->materials[0].texture->rgba[4] == 0);
   CHECK(model->materials[0].texture->rgba[5] == 255);
-  write(in.path / "broken.png", "not a picture");
-  CHECK_FALSE(bring_in(in.path / "broken.png", document->folder()).ok());
+  write(in.path() / "broken.png", "not a picture");
+  CHECK_FALSE(bring_in(in.path() / "broken.png", document->folder()).ok());
 }
 
 TEST_CASE("a file changed by others is noticed, and taken as one step of undo") {
   const Folder in;
   auto document = Document::from_sample("first-light", in.folders);
-  REQUIRE(document->save_as(in.path / "show").ok());
+  REQUIRE(document->save_as(in.path() / "show").ok());
   CHECK_FALSE(document->changed_outside());
   Project theirs = document->project();
   theirs.viewer.interpupillary_mm = 58;

@@ -9,20 +9,11 @@
 #include "editor/pipeline/compile_show.h"
 #include "io/project/project_file.h"
 #include "io/show/reader.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace focalstage;
 
 namespace {
-
-/// A folder of its own, gone at the end.
-struct Folder {
-  std::filesystem::path path;
-  Folder() {
-    char name[] = "/tmp/focalstage-queue-XXXXXX";
-    path = mkdtemp(name);
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-};
 
 Source small_source(int frames) {
   Source source;
@@ -48,9 +39,9 @@ Source small_source(int frames) {
   return source;
 }
 
-CompileJob job_for(const Folder& folder, int threads) {
+CompileJob job_for(const TemporaryFolder& folder, int threads) {
   CompileJob job;
-  job.show = folder.path / "show.h5";
+  job.show = folder.path() / "show.h5";
   job.engine.threads = threads;
   return job;
 }
@@ -60,7 +51,7 @@ CompileJob job_for(const Folder& folder, int threads) {
 TEST_CASE("every frame arrives, whichever thread writes it") {
   for (const int threads : {1, 2}) {
     CAPTURE(threads);
-    const Folder folder;
+    const TemporaryFolder folder;
     int told = 0;
     const auto report =
         compile_show(small_source(9), job_for(folder, threads), [&](int done, int) { told = done; }, {});
@@ -68,14 +59,14 @@ TEST_CASE("every frame arrives, whichever thread writes it") {
     CHECK(told == 9);
     CHECK(report->frames == 9);
     CHECK(report->resumed == 0);
-    const auto show = ShowReader::open(folder.path / "show.h5");
+    const auto show = ShowReader::open(folder.path() / "show.h5");
     REQUIRE(show.ok());
     CHECK(show->header().frames == 9);
   }
 }
 
 TEST_CASE("a stop leaves what is finished, and a resume takes it over") {
-  const Folder folder;
+  const TemporaryFolder folder;
   CompileJob job = job_for(folder, 1);
   std::stop_source stop;
   const auto stopped = compile_show(
@@ -94,7 +85,7 @@ TEST_CASE("a stop leaves what is finished, and a resume takes it over") {
 }
 
 TEST_CASE("frames outside the project are refused") {
-  const Folder folder;
+  const TemporaryFolder folder;
   CompileJob job = job_for(folder, 1);
   for (const FrameRange range : {FrameRange{0, 10}, FrameRange{-1, 2}, FrameRange{3, 3}, FrameRange{5, 4}}) {
     job.frames = range;
@@ -110,13 +101,13 @@ TEST_CASE("frames outside the project are refused") {
 }
 
 TEST_CASE("a writer that fails ends the queue, and is not waited for") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Source source = small_source(9);
   FrameMaker maker(source, {1, false, VectorPath::best});
   const ScheduleResult schedule = make_schedule(source.project, maker.settings().images);
   const ShowHeader header =
       make_show_header(source.project, source.text, source.loaded, schedule.schedule, maker.settings(), {0, 9});
-  auto writer = ShowWriter::start(folder.path / "show.h5", header, false, 1);
+  auto writer = ShowWriter::start(folder.path() / "show.h5", header, false, 1);
   REQUIRE(writer.ok());
   FrameQueue queue(*writer);
   FrameImages wrong;  // no image at all: the writer refuses it

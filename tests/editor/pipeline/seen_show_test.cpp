@@ -12,20 +12,11 @@
 #include "editor/pipeline/source.h"
 #include "io/project/project_file.h"
 #include "io/show/writer.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace focalstage;
 
 namespace {
-
-/// A folder of its own, gone at the end.
-struct Folder {
-  std::filesystem::path path;
-  Folder() {
-    char name[] = "/tmp/focalstage-seen-XXXXXX";
-    path = mkdtemp(name);
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-};
 
 /// A lit screen that moves away, 1 m in a second: frame 30 of 60 stands half a metre farther.
 Project moving_screen() {
@@ -53,14 +44,14 @@ Project moving_screen() {
 
 /// Frames 30 and 31 as a show, the images all at full code; `spoil` may change what the header says.
 template <class Spoil>
-Result<ShowReader> show_of(const Folder& folder, Spoil&& spoil) {
+Result<ShowReader> show_of(const TemporaryFolder& folder, Spoil&& spoil) {
   const Project project = moving_screen();
   const CompileSettings settings = compile_settings(project);
   const ScheduleResult schedule = make_schedule(project, settings.images);
   ShowHeader header =
       make_show_header(project, project_text(project), LoadedAssets{}, schedule.schedule, settings, {30, 32});
   spoil(header);
-  auto writer = ShowWriter::start(folder.path / "show.h5", header, false, 1);
+  auto writer = ShowWriter::start(folder.path() / "show.h5", header, false, 1);
   if (!writer) return writer.fault();
   FrameImages images;
   images.count = settings.images.size();
@@ -71,13 +62,13 @@ Result<ShowReader> show_of(const Folder& folder, Spoil&& spoil) {
     if (Status added = writer->add_frame(frame, images); !added) return added.fault();
   }
   if (Status done = writer->finish(); !done) return done.fault();
-  return ShowReader::open(folder.path / "show.h5");
+  return ShowReader::open(folder.path() / "show.h5");
 }
 
 }  // namespace
 
 TEST_CASE("an eye gets its own exposures, at the lens' power, and the light that both get") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto show = show_of(folder, [](ShowHeader&) {});
   REQUIRE(show);
   for (const Side side : both_sides) {
@@ -100,7 +91,7 @@ TEST_CASE("an eye gets its own exposures, at the lens' power, and the light that
 }
 
 TEST_CASE("things stand where they stood in that frame") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto show = show_of(folder, [](ShowHeader&) {});
   REQUIRE(show);
   const auto seen = SeenShow::of(*show, "show.h5", 0, Side::left);
@@ -112,7 +103,7 @@ TEST_CASE("things stand where they stood in that frame") {
 }
 
 TEST_CASE("poses that a tracker gave the show count, not the project's") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto show = show_of(folder, [](ShowHeader& header) {
     // A quarter turn about Y: what faced +Z faces +X.
     header.poses[0].surfaces[0] = {0.25, 0.0, -2.0, 0.0, std::sqrt(0.5), 0.0, std::sqrt(0.5)};

@@ -14,20 +14,12 @@
 
 #include "editor/rig/simulated_rig.h"
 #include "io/protocol/client.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace focalstage;
 using Phase = RigStatus::Phase;
 
 namespace {
-
-struct Folder {
-  Folder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "rig-link-XXXXXX").string();
-    path = mkdtemp(pattern.data());
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-  std::filesystem::path path;
-};
 
 bool wait(const std::function<bool()>& until, double patience_s = 15.0) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(patience_s);
@@ -53,19 +45,19 @@ pid_t runtime_with(const std::string& store) {
 }  // namespace
 
 TEST_CASE("a simulated rig starts, answers and goes with its owner") {
-  const Folder folder;
+  const TemporaryFolder folder;
   {
-    auto rig = SimulatedRig::start(folder.path / "store");
+    auto rig = SimulatedRig::start(folder.path() / "store");
     REQUIRE(rig.ok());
     CHECK(rig->running());
     CHECK(RigClient::connect(rig->address(), std::chrono::milliseconds(2000)).ok());
   }
-  CHECK(runtime_with(folder.path.string()) == -1);
+  CHECK(runtime_with(folder.path().string()) == -1);
 }
 
 TEST_CASE("nobody at the address is said, and costs nothing") {
-  const Folder folder;
-  RigLink link([] {}, folder.path);
+  const TemporaryFolder folder;
+  RigLink link([] {}, folder.path());
   link.connect("127.0.0.1:1");
   REQUIRE(wait([&] { return link.status().fault.has_value(); }));
   CHECK(link.status().fault->code == "rig.unreachable");
@@ -75,20 +67,20 @@ TEST_CASE("nobody at the address is said, and costs nothing") {
 }
 
 TEST_CASE("a simulated rig that is killed is said to be lost, and comes back") {
-  const Folder folder;
-  RigLink link([] {}, folder.path);
+  const TemporaryFolder folder;
+  RigLink link([] {}, folder.path());
   link.simulate();
   REQUIRE(wait([&] { return link.status().phase == Phase::connected; }));
   const std::string first = link.status().address;
   CHECK_FALSE(link.status().description.projectors.empty());
-  REQUIRE(kill(runtime_with(folder.path.string()), SIGKILL) == 0);
+  REQUIRE(kill(runtime_with(folder.path().string()), SIGKILL) == 0);
   CHECK(wait([&] { return link.status().phase == Phase::lost || link.status().address != first; }));
   CHECK(wait([&] { return link.status().phase == Phase::connected && link.status().address != first; }));
 }
 
 TEST_CASE("a push that cannot be made says why, and blackout is not held up by it") {
-  const Folder folder;
-  RigLink link([] {}, folder.path);
+  const TemporaryFolder folder;
+  RigLink link([] {}, folder.path());
   link.simulate();
   REQUIRE(wait([&] { return link.status().phase == Phase::connected; }));
   link.push([](const std::function<void(double)>& progress, std::stop_token stop) -> Result<std::filesystem::path> {

@@ -1,4 +1,5 @@
 #include "editor/session/folder_listing.h"
+#include "tests/support/temporary_folder.h"
 
 #include <doctest/doctest.h>
 
@@ -12,17 +13,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Folder {
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "listing-XXXXXX").string();
-    path = mkdtemp(pattern.data());
-  }
-  ~Folder() { fs::remove_all(path); }
+struct Folder : TemporaryFolder {
   void file(const fs::path& name, std::size_t bytes = 1) const {
-    fs::create_directories((path / name).parent_path());
-    std::ofstream(path / name) << std::string(bytes, 'x');
+    fs::create_directories((path() / name).parent_path());
+    std::ofstream(path() / name) << std::string(bytes, 'x');
   }
-  fs::path path;
 };
 
 std::vector<std::string> names(const fs::path& folder, Listed wanted) {
@@ -57,18 +52,18 @@ TEST_CASE("a folder lists folders first, then what is wanted, by name") {
   folder.file("Zoo/show.focal");
   folder.file("arch/readme");
   using Names = std::vector<std::string>;
-  CHECK(names(folder.path, Listed::projects) == Names{"arch", "Zoo", "a.focal"});
-  CHECK(names(folder.path, Listed::assets) == Names{"arch", "Zoo", "b.GLB", "d.png"});
-  CHECK(names(folder.path, Listed::folders) == Names{"arch", "Zoo"});
-  CHECK(names(folder.path, Listed::everything) == Names{"arch", "Zoo", "a.focal", "b.GLB", "c.txt", "d.png"});
-  const auto entries = list_folder(folder.path, Listed::projects);
+  CHECK(names(folder.path(), Listed::projects) == Names{"arch", "Zoo", "a.focal"});
+  CHECK(names(folder.path(), Listed::assets) == Names{"arch", "Zoo", "b.GLB", "d.png"});
+  CHECK(names(folder.path(), Listed::folders) == Names{"arch", "Zoo"});
+  CHECK(names(folder.path(), Listed::everything) == Names{"arch", "Zoo", "a.focal", "b.GLB", "c.txt", "d.png"});
+  const auto entries = list_folder(folder.path(), Listed::projects);
   CHECK_FALSE((*entries)[0].project);
   CHECK((*entries)[1].project);
 }
 
 TEST_CASE("a folder that cannot be read says so") {
   const Folder folder;
-  const auto missing = list_folder(folder.path / "none", Listed::everything);
+  const auto missing = list_folder(folder.path() / "none", Listed::everything);
   REQUIRE_FALSE(missing.ok());
   CHECK(missing.fault().code == "folder.unreadable");
   CHECK(missing.fault().message == "No such file or directory");

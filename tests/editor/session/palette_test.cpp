@@ -8,19 +8,14 @@
 
 #include "editor/samples/samples.h"
 #include "editor/session/session.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace focalstage;
 
 namespace {
 
-struct Home {
-  Home() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "palette-XXXXXX").string();
-    path = mkdtemp(pattern.data());
-    setenv("XDG_STATE_HOME", (path / "state").c_str(), 1);
-  }
-  ~Home() { std::filesystem::remove_all(path); }
-  std::filesystem::path path;
+struct Home : TemporaryFolder {
+  Home() { setenv("XDG_STATE_HOME", (path() / "state").c_str(), 1); }
 };
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "io/files/files.h"
 #include "io/image/png.h"
 #include "io/project/project_file.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace focalstage;
 namespace fs = std::filesystem;
@@ -25,15 +26,11 @@ namespace fs = std::filesystem;
 namespace {
 
 /// A home of its own, so that no test meets another's state.
-struct Home {
+struct Home : TemporaryFolder {
   Home() {
-    std::string pattern = (fs::temp_directory_path() / "session-XXXXXX").string();
-    path = mkdtemp(pattern.data());
-    setenv("XDG_STATE_HOME", (path / "state").c_str(), 1);
-    setenv("XDG_CONFIG_HOME", (path / "config").c_str(), 1);
+    setenv("XDG_STATE_HOME", (path() / "state").c_str(), 1);
+    setenv("XDG_CONFIG_HOME", (path() / "config").c_str(), 1);
   }
-  ~Home() { fs::remove_all(path); }
-  fs::path path;
 };
 
 double now_s() {
@@ -251,23 +248,23 @@ TEST_CASE("closing with unsaved edits asks, and saving an untitled project asks 
   REQUIRE(session.run("app.quit").ok());
   session.answer(0);
   CHECK(session.file_wish() == FileWish::save_as);
-  REQUIRE(session.run("file.save-as", args({{"path", (home.path / "mine").string()}})).ok());
+  REQUIRE(session.run("file.save-as", args({{"path", (home.path() / "mine").string()}})).ok());
   CHECK(session.wants_to_quit());
-  CHECK(fs::exists(home.path / "mine" / "mine.focal"));
+  CHECK(fs::exists(home.path() / "mine" / "mine.focal"));
 }
 
 TEST_CASE("a broken mesh is refused in words, and a good one becomes an object") {
   const Home home;
-  std::ofstream(home.path / "broken.obj") << "v 0 0 0\nf 1 2 3\n";
-  std::ofstream(home.path / "three.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  std::ofstream(home.path() / "broken.obj") << "v 0 0 0\nf 1 2 3\n";
+  std::ofstream(home.path() / "three.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   Session session([] {});
   open_sample(session, "first-light");
   const Project before = session.project();
-  REQUIRE(session.run("file.import", args({{"path", (home.path / "broken.obj").string()}})).ok());
+  REQUIRE(session.run("file.import", args({{"path", (home.path() / "broken.obj").string()}})).ok());
   REQUIRE(wait(session, [&] { return session.notice() && session.notice()->kind == LogLine::Kind::fault; }));
   CHECK(session.notice()->text.find("broken.obj") != std::string::npos);
   CHECK(session.project() == before);
-  REQUIRE(session.run("file.import", args({{"path", (home.path / "three.obj").string()}})).ok());
+  REQUIRE(session.run("file.import", args({{"path", (home.path() / "three.obj").string()}})).ok());
   REQUIRE(wait(session, [&] { return session.project().objects.size() == 3; }));
   REQUIRE(wait_compiled(session));
   CHECK(session.stage()->objects.size() == 3);
@@ -280,16 +277,16 @@ TEST_CASE("what a client should see is written as pictures") {
   REQUIRE(wait_compiled(session));
   const auto count = [&] {
     std::error_code none;
-    return std::distance(fs::directory_iterator(home.path / "out", none), fs::directory_iterator());
+    return std::distance(fs::directory_iterator(home.path() / "out", none), fs::directory_iterator());
   };
-  REQUIRE(session.run("export.stereo", args({{"path", (home.path / "out").string()}})).ok());
+  REQUIRE(session.run("export.stereo", args({{"path", (home.path() / "out").string()}})).ok());
   REQUIRE(wait(session, [&] { return count() == 4 && session.tasks().empty(); }));
-  const auto bytes = read_file(home.path / "out" / "stereo-side-by-side.png", 1u << 26);
+  const auto bytes = read_file(home.path() / "out" / "stereo-side-by-side.png", 1u << 26);
   REQUIRE(bytes.ok());
   const auto both = decode_image(*bytes, "both");
   REQUIRE(both.ok());
   CHECK(both->width_px == 2560);
-  REQUIRE(session.run("export.focal-pull", args({{"path", (home.path / "out").string()}, {"frames", 3.0}})).ok());
+  REQUIRE(session.run("export.focal-pull", args({{"path", (home.path() / "out").string()}, {"frames", 3.0}})).ok());
   REQUIRE(wait(session, [&] { return count() >= 7 && session.tasks().empty(); }));
 }
 
@@ -298,7 +295,7 @@ TEST_CASE("what cannot be opened costs nothing of what is open") {
   Session session([] {});
   open_sample(session, "first-light");
   REQUIRE(session.run("add.rabbit").ok());
-  CHECK_FALSE(session.run("file.open", args({{"path", (home.path / "none.focal").string()}})).ok());
+  CHECK_FALSE(session.run("file.open", args({{"path", (home.path() / "none.focal").string()}})).ok());
   CHECK(session.project().objects.size() == 3);
   CHECK(here(session, "question") == Value(""));
 }
@@ -333,7 +330,7 @@ TEST_CASE("push to a simulated rig, play, live, blackout") {
 
   // The runtime dies while it is live: the session says so, goes on, and is live again on a new one.
   const std::string first = session.rig().status().address;
-  kill_runtime_with((home.path / "state").string());
+  kill_runtime_with((home.path() / "state").string());
   REQUIRE(wait(session, [&] { return session.rig().status().address != first && session.rig().status().live; }));
   REQUIRE(session.edit("Pupils", {set_edit({"viewer", ""}, "interpupillary_mm", Value(61.0))}).ok());
   CHECK(std::any_of(session.log().begin(), session.log().end(),

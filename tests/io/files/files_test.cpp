@@ -7,7 +7,7 @@
 #include <fstream>
 
 #include "tests/io/files/small_disk.h"
-#include "tests/io/files/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace focalstage;
 namespace fs = std::filesystem;

@@ -7,7 +7,7 @@
 #include <sys/resource.h>
 #include <csignal>
 
-#include "tests/io/files/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace focalstage {
 

@@ -1,4 +1,5 @@
 #include "io/journal/journal.h"
+#include "tests/support/temporary_folder.h"
 
 #include <doctest/doctest.h>
 
@@ -11,15 +12,6 @@
 using namespace focalstage;
 
 namespace {
-
-struct Folder {
-  Folder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "journal-XXXXXX").string();
-    path = mkdtemp(pattern.data());
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
-  std::filesystem::path path;
-};
 
 JournalStep step(double mm, Joining joining = Joining::own_step) {
   return {{"Set pupils", {{Edit::Kind::set, "viewer", "", "interpupillary_mm", Value(mm)}}}, joining};
@@ -35,8 +27,8 @@ std::string bytes_of(const std::filesystem::path& path) {
 }  // namespace
 
 TEST_CASE("what was written comes back in order") {
-  const Folder folder;
-  const auto path = folder.path / "a.journal";
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.journal";
   { REQUIRE(Journal::start(path, base).ok()); }
   CHECK_FALSE(std::filesystem::exists(path));  // nothing happened, nothing is left
   const std::vector<JournalRecord> records{step(60), step(61, Joining::continues_last), JournalJump{0}, step(62)};
@@ -56,8 +48,8 @@ TEST_CASE("what was written comes back in order") {
 }
 
 TEST_CASE("cut at any byte or with any byte changed, what came before the damage is whole") {
-  const Folder folder;
-  const auto path = folder.path / "a.journal";
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "a.journal";
   const std::vector<JournalRecord> records{step(60), JournalJump{1}, step(62.5)};
   {
     auto journal = Journal::start(path, base);
@@ -95,11 +87,11 @@ TEST_CASE("cut at any byte or with any byte changed, what came before the damage
 }
 
 TEST_CASE("a journal that is discarded is gone, and a folder that is not there is a fault") {
-  const Folder folder;
-  auto journal = Journal::start(folder.path / "a.journal", base);
+  const TemporaryFolder folder;
+  auto journal = Journal::start(folder.path() / "a.journal", base);
   REQUIRE(journal.ok());
   journal->discard();
-  CHECK_FALSE(std::filesystem::exists(folder.path / "a.journal"));
-  CHECK(Journal::start(folder.path / "no" / "a.journal", base).fault().code == "file.unwritable");
-  CHECK(read_journal(folder.path / "none").fault().code == "file.missing");
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "a.journal"));
+  CHECK(Journal::start(folder.path() / "no" / "a.journal", base).fault().code == "file.unwritable");
+  CHECK(read_journal(folder.path() / "none").fault().code == "file.missing");
 }

@@ -5,8 +5,8 @@
 #include "core/scene/project_value.h"
 #include "io/files/files.h"
 #include "io/project/project_file.h"
-#include "tests/io/files/temporary_folder.h"
 #include "tests/io/project/sample.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace focalstage;
 namespace fs = std::filesystem;
