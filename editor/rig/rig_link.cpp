@@ -40,11 +40,15 @@ struct RigLink::State {
   std::optional<SimulatedRig> simulated;  ///< the worker's
   std::optional<RigClient> client;        ///< the worker's; holds the rig
 
-  std::vector<std::jthread> blackouts;  ///< each waits for nothing that was asked before
-  std::jthread watcher;                 ///< started and joined by the worker
+  std::condition_variable urgent;  ///< `blackout_wanted` or `ending` was set
+  bool blackout_wanted = false;
+
+  std::jthread watcher;  ///< started and joined by the worker
   std::thread worker;
+  std::thread lifeguard;  ///< for blackouts alone: they wait for nothing that was asked before
 
   void run();
+  void stand_by();
   void order(std::function<void()> what);
   void connect_to(const std::string& address, bool own);
   void leave();
@@ -129,6 +133,22 @@ void RigLink::State::stay_live() {
   // Live means light: what is compiled first is played, unless the rig is dark and waits for a go.
   if (stream.take_ready()) tell(client->play());
   if (changed) wake();
+}
+
+/// Blackout is a call of its own, which needs no hold on the rig. Pressed again while one is under way: one more.
+void RigLink::State::stand_by() {
+  for (;;) {
+    std::string address;
+    {
+      std::unique_lock lock(mutex);
+      urgent.wait(lock, [&] { return ending || blackout_wanted; });
+      if (ending) return;
+      blackout_wanted = false;
+      address = status.address;
+    }
+    auto own = RigClient::connect(address, connect_deadline);
+    tell(own ? own->blackout() : Status(own.fault()));
+  }
 }
 
 void RigLink::State::leave() {
@@ -253,6 +273,7 @@ RigLink::RigLink(std::function<void()> wake, std::filesystem::path state_folder)
   state_->wake = std::move(wake);
   state_->folder = std::move(state_folder);
   state_->worker = std::thread([this] { state_->run(); });
+  state_->lifeguard = std::thread([this] { state_->stand_by(); });
 }
 
 RigLink::~RigLink() {
@@ -262,6 +283,8 @@ RigLink::~RigLink() {
     state_->push_stop.request_stop();
   }
   state_->arrived.notify_all();
+  state_->urgent.notify_all();
+  state_->lifeguard.join();
   state_->worker.join();
 }
 
@@ -342,13 +365,10 @@ void RigLink::go() {
 }
 
 void RigLink::blackout() {
-  const std::string address = status().address;
-  if (address.empty()) return;
-  // A call of its own, which needs no hold on the rig.
-  state_->blackouts.emplace_back([state = state_.get(), address] {
-    auto own = RigClient::connect(address, connect_deadline);
-    state->tell(own ? own->blackout() : Status(own.fault()));
-  });
+  const std::lock_guard lock(state_->mutex);
+  if (state_->status.address.empty()) return;
+  state_->blackout_wanted = true;
+  state_->urgent.notify_one();
 }
 
 RigStatus RigLink::status() const {

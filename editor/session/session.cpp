@@ -21,8 +21,6 @@ constexpr glm::dvec2 usual_pane_px(640.0, 480.0);
 /// Of the eye's view: a lens of 16 mm at 15 mm shows 56 degrees.
 constexpr double narrowest_deg = 20.0, widest_deg = 60.0;
 
-LogLine::Kind kind_of(const Status& status) { return status ? LogLine::Kind::info : LogLine::Kind::fault; }
-
 /// The project without what cannot be stood up for want of its file.
 Project without_missing(const Project& project, const Assets& assets) {
   Project shown = project;
@@ -240,7 +238,7 @@ Status Session::run(std::string_view command, const Value& args) {
   } else {
     done = found->run(*this, args);
   }
-  if (!done) state_->say(kind_of(done), describe(done.fault()));
+  if (!done) state_->say(LogLine::Kind::fault, describe(done.fault()));
   return done;
 }
 

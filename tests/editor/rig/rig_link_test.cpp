@@ -96,3 +96,17 @@ TEST_CASE("a push that cannot be made says why, and blackout is not held up by i
   REQUIRE(wait([&] { return !link.status().pushing; }));
   CHECK(link.status().fault->code == "compile.cancelled");
 }
+
+TEST_CASE("a hand that hammers on Blackout gets darkness, not a thread for each press") {
+  const TemporaryFolder folder;
+  RigLink link([] {}, folder.path());
+  link.simulate();
+  REQUIRE(wait([&] { return link.status().phase == Phase::connected; }));
+  const auto threads = [] {
+    return std::distance(std::filesystem::directory_iterator("/proc/self/task"), std::filesystem::directory_iterator());
+  };
+  const auto before = threads();
+  for (int press = 0; press < 200; ++press) link.blackout();
+  CHECK(wait([&] { return link.status().state.state == "dark"; }));
+  CHECK(threads() < before + 100);  // gRPC keeps a handful of its own
+}
