@@ -39,9 +39,9 @@ focalstage_room(editor/cli      USES editor/samples editor/pipeline io/project i
                                      core/check core/reference core/compile core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
 focalstage_room(editor/document USES editor/samples io/journal io/project io/assets io/files core/scene)
-focalstage_room(editor/preview  USES core/check core/compile core/reference core/retina core/schedule core/stage)
-focalstage_room(editor/rig      USES io/protocol io/project io/assets io/files)
 focalstage_room(editor/tools    USES core/compile core/stage core/optics core/scene core/mesh)
+focalstage_room(editor/preview  USES editor/tools core/check core/compile core/reference core/retina core/schedule core/stage)
+focalstage_room(editor/rig      USES io/protocol io/project io/assets io/files)
 focalstage_room(editor/session  USES editor/tools editor/document editor/preview editor/rig editor/pipeline io/export io/image)
 
 # the window: GLFW, Dear ImGui and VTK live here and nowhere else

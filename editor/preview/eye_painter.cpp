@@ -5,27 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "editor/tools/srgb.h"
+
 namespace focalstage {
 namespace {
-
-/// Codes of sRGB for linear light, by its first four thousand steps.
-class ScreenCodes {
- public:
-  ScreenCodes() {
-    for (std::size_t i = 0; i < codes_.size(); ++i) {
-      const double light = static_cast<double>(i) / static_cast<double>(codes_.size() - 1);
-      const double coded = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
-      codes_[i] = static_cast<std::uint8_t>(std::lround(255.0 * coded));
-    }
-  }
-  std::uint8_t operator()(float light) const {
-    const float clamped = std::clamp(light, 0.0f, 1.0f);
-    return codes_[static_cast<std::size_t>(clamped * static_cast<float>(codes_.size() - 1) + 0.5f)];
-  }
-
- private:
-  std::array<std::uint8_t, 4096> codes_{};
-};
 
 float luminance(const float* rgb) { return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2]; }
 
@@ -98,7 +81,6 @@ Status EyePainter::make_conventional(const CompiledSlices& compiled, SliceMaker&
 
 Result<EyePicture> EyePainter::paint(const CompiledSlices& compiled, const EyeWish& wish, SliceMaker& maker,
                                      std::stop_token stop) {
-  static const ScreenCodes code;
   CompileSettings settings = compiled.settings;
   const FrameImages* images = &compiled.images;
   if (wish.conventional) {
@@ -117,11 +99,11 @@ Result<EyePicture> EyePainter::paint(const CompiledSlices& compiled, const EyeWi
     for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
       const float* light = &seen->rgb[i];
       if (!both) {
-        for (std::size_t c = 0; c < 3; ++c) picture.rgb[i + c] = code(light[c]);
+        for (std::size_t c = 0; c < 3; ++c) picture.rgb[i + c] = srgb_code(light[c]);
       } else if (side == Side::left) {
-        picture.rgb[i] = code(luminance(light));
+        picture.rgb[i] = srgb_code(luminance(light));
       } else {
-        picture.rgb[i + 1] = picture.rgb[i + 2] = code(luminance(light));
+        picture.rgb[i + 1] = picture.rgb[i + 2] = srgb_code(luminance(light));
       }
     }
   }

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/mesh/measure.h"
+#include "editor/tools/srgb.h"
 
 namespace focalstage {
 namespace {
@@ -16,21 +17,6 @@ constexpr std::size_t large_mesh = 20'000;  // triangles: fine enough as they ar
 constexpr std::size_t most_rays = 20'000;   // vertices beyond which shadows are left out
 constexpr double own_surface_share = 2e-3;  // a ray that ends this near before a vertex met the vertex's own face
 constexpr double just_outside = 0.9;        // of the picture's size from its middle: no shadows farther out
-constexpr int encode_steps = 4096;
-
-double to_srgb(double linear) {
-  const double c = std::clamp(linear, 0.0, 1.0);
-  return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
-}
-
-std::array<std::uint8_t, encode_steps + 1> srgb_table() {
-  std::array<std::uint8_t, encode_steps + 1> table{};
-  for (int i = 0; i <= encode_steps; ++i) {
-    table[static_cast<std::size_t>(i)] =
-        static_cast<std::uint8_t>(255.0 * to_srgb(static_cast<double>(i) / encode_steps) + 0.5);
-  }
-  return table;
-}
 
 /// Sum over the images of the light of each value, halved for an image that only one eye gets; by value of `codes`.
 std::vector<float> summed_light(const FrameImages& images, const std::vector<ImageSpec>& specs, int bits,
@@ -53,22 +39,18 @@ std::vector<float> summed_light(const FrameImages& images, const std::vector<Ima
 
 LightPicture light_picture(const FrameImages& images, const std::vector<ImageSpec>& specs, int bits, double gamma,
                            double tone) {
-  static const std::array<std::uint8_t, encode_steps + 1> table = srgb_table();
   const std::vector<float> sum = summed_light(images, specs, bits, gamma);
   LightPicture picture{images.width_px, images.height_px, {}};
   const auto width = static_cast<std::size_t>(images.width_px);
   const auto height = static_cast<std::size_t>(images.height_px);
   const auto channels = static_cast<std::size_t>(images.channels);
-  const auto encoded = [&](double linear) {
-    return table[static_cast<std::size_t>(std::clamp(linear, 0.0, 1.0) * encode_steps + 0.5)];
-  };
-  picture.rgb.assign(width * height * 3, encoded(tone));
+  picture.rgb.assign(width * height * 3, srgb_code(tone));
   for (std::size_t y = 1; y + 1 < height; ++y) {
     const float* from = &sum[(height - 1 - y) * width * channels];
     std::uint8_t* to = &picture.rgb[y * width * 3];
     for (std::size_t x = 1; x + 1 < width; ++x) {
       for (std::size_t c = 0; c < 3; ++c) {
-        to[3 * x + c] = encoded(tone + static_cast<double>(from[x * channels + std::min(c, channels - 1)]));
+        to[3 * x + c] = srgb_code(tone + static_cast<double>(from[x * channels + std::min(c, channels - 1)]));
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "editor/session/colour_text.h"
+#include "editor/tools/srgb.h"
 #include "editor/window/base/fonts.h"
 #include "editor/window/base/icons.h"
 #include "editor/window/base/im.h"
@@ -241,7 +242,7 @@ PropertyChange PropertyFields::draw_colour(const Property& row) {
                      px(4));
   if (!row.mixed) {
     list.AddRectFilled(to_im(min + glm::vec2(px(4))), to_im(min + swatch - glm::vec2(0.0f, px(4))),
-                       packed(coded_from_linear(color)), px(3));
+                       packed(srgb_from_linear(color)), px(3));
   }
   const std::string text = row.mixed ? "—" : colour_text(color);
   list.AddText({min.x + swatch.x + px(8), min.y + ImGui::GetStyle().FramePadding.y}, theme::text, text.c_str());
@@ -259,14 +260,14 @@ PropertyChange PropertyFields::draw_colour(const Property& row) {
 PropertyChange PropertyFields::draw_picker(const Property& row) {
   // The picker keeps its own hue while the project's colour is gray.
   const glm::dvec3 now = rgb_of(row.value);
-  const glm::dvec3 coded = coded_from_linear(now);
+  const glm::dvec3 coded = srgb_from_linear(now);
   float channels[3] = {static_cast<float>(coded.r), static_cast<float>(coded.g), static_cast<float>(coded.b)};
   ImGui::SetNextItemWidth(px(picker_width));
   PropertyChange change;
   if (ImGui::ColorPicker3("##picker", channels,
                           ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_NoSidePreview |
                               ImGuiColorEditFlags_NoLabel | ImGuiColorEditFlags_NoOptions)) {
-    change = set_to(value_of_rgb(linear_from_coded({channels[0], channels[1], channels[2]})));
+    change = set_to(value_of_rgb(linear_from_srgb({channels[0], channels[1], channels[2]})));
     change.moving = true;
   }
   see_last_item("picker");

@@ -11,15 +11,12 @@
 #include <glm/common.hpp>
 #include <glm/matrix.hpp>
 
+#include "editor/tools/srgb.h"
+
 namespace focalstage {
 namespace {
 
 constexpr int most_squares = 256;
-
-double to_srgb(double linear) {
-  const double c = std::min(std::max(linear, 0.0), 1.0);
-  return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
-}
 
 vtkSmartPointer<vtkImageData> image(int width, int height, int channels) {
   auto pixels = vtkSmartPointer<vtkImageData>::New();
@@ -32,8 +29,8 @@ vtkSmartPointer<vtkImageData> image(int width, int height, int channels) {
 vtkSmartPointer<vtkTexture> checker_texture(const Finish& finish) {
   const glm::ivec2 squares = glm::clamp(finish.squares, 1, most_squares);
   auto pixels = image(squares.x, squares.y, 3);
-  const glm::dvec3 a = on_screen(finish.a);
-  const glm::dvec3 b = on_screen(finish.b);
+  const glm::dvec3 a = srgb_from_linear(finish.a);
+  const glm::dvec3 b = srgb_from_linear(finish.b);
   for (int y = 0; y < squares.y; ++y) {
     for (int x = 0; x < squares.x; ++x) {
       auto* to = static_cast<unsigned char*>(pixels->GetScalarPointer(x, y, 0));
@@ -73,7 +70,7 @@ void finish_actor(vtkActor& actor, const Finish& finish, bool has_uv, bool tinte
   property.SetAmbient(0.34);
   property.SetDiffuse(0.66);
   property.SetSpecular(0.0);
-  glm::dvec3 colour = on_screen(finish.a);
+  glm::dvec3 colour = srgb_from_linear(finish.a);
   if (!tinted && has_uv && finish.kind == Finish::Kind::checker) {
     actor.SetTexture(checker_texture(finish));
     colour = glm::dvec3(1.0);
@@ -84,8 +81,6 @@ void finish_actor(vtkActor& actor, const Finish& finish, bool has_uv, bool tinte
 }
 
 }  // namespace
-
-glm::dvec3 on_screen(const glm::dvec3& linear) { return {to_srgb(linear.r), to_srgb(linear.g), to_srgb(linear.b)}; }
 
 void place(vtkActor& actor, const glm::dmat4& world_from_mesh) {
   vtkNew<vtkMatrix4x4> matrix;

@@ -54,7 +54,4 @@ class RoomActors {
 /// Sets the actor's matrix.
 void place(vtkActor& actor, const glm::dmat4& world_from_mesh);
 
-/// A linear colour as the screen shows it, 0..1.
-glm::dvec3 on_screen(const glm::dvec3& linear);
-
 }  // namespace focalstage
