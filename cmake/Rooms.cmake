@@ -7,9 +7,10 @@ focalstage_room(core/scene      USES core/base core/mesh)
 focalstage_room(core/stage      USES core/scene core/mesh)
 focalstage_room(core/optics     USES core/stage core/scene)
 focalstage_room(core/compile    USES core/optics core/stage        PRIVATE_LIBS TBB::tbb)
-focalstage_room(core/reference  USES core/compile core/optics core/stage PRIVATE_LIBS embree TBB::tbb)
-focalstage_room(core/schedule   USES core/optics core/scene)
 focalstage_room(core/retina     USES core/optics core/stage        PRIVATE_LIBS TBB::tbb)
+focalstage_room(core/reference  USES core/retina core/compile core/optics core/stage PRIVATE_LIBS embree TBB::tbb)
+focalstage_room(core/schedule   USES core/optics core/scene)
+focalstage_room(core/percept    USES core/retina core/schedule core/compile core/optics core/stage PRIVATE_LIBS TBB::tbb)
 focalstage_room(core/check      USES core/compile core/schedule core/optics core/scene)
 
 # io: everything that becomes bytes
@@ -33,14 +34,15 @@ focalstage_room(devices/runtime USES devices/player devices/sim io/show io/proje
 
 # editor: what people touch
 focalstage_room(editor/samples  USES io/files core/base)
-focalstage_room(editor/pipeline USES io/project io/assets io/show core/check core/reference core/compile core/retina
+focalstage_room(editor/pipeline USES io/project io/assets io/show core/check core/reference core/compile core/percept core/retina
                                      core/schedule)
 focalstage_room(editor/cli      USES editor/samples editor/pipeline io/project io/assets io/show io/export io/protocol
-                                     core/check core/reference core/compile core/retina core/schedule
+                                     core/check core/reference core/compile core/percept core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
 focalstage_room(editor/document USES editor/samples io/journal io/project io/assets io/files core/scene)
 focalstage_room(editor/tools    USES core/compile core/stage core/optics core/scene core/mesh)
-focalstage_room(editor/preview  USES editor/tools core/check core/compile core/reference core/retina core/schedule core/stage)
+focalstage_room(editor/preview  USES editor/tools core/check core/compile core/reference core/percept core/retina core/schedule
+                                     core/stage)
 focalstage_room(editor/rig      USES io/protocol io/project io/assets io/files)
 focalstage_room(editor/session  USES editor/tools editor/document editor/preview editor/rig editor/pipeline io/export io/image)
 

@@ -44,6 +44,15 @@ class BlurLayers {
     }
   }
 
+  void add_channel(int column, int row, const BlurShare& share, int channel, float light) {
+    const std::size_t plane = width_ * height_;
+    float* const low = &light_[static_cast<std::size_t>((share.layer - first_) * channels_ + channel) * plane +
+                               static_cast<std::size_t>(row) * width_ + static_cast<std::size_t>(column)];
+    const float next = share.next * light;
+    low[0] += light - next;
+    low[static_cast<std::size_t>(channels_) * plane] += next;
+  }
+
   /// The blurred sum of all layers: one plane per channel. Unfinished after a stop request.
   std::vector<float> blurred(const std::stop_token& stop) const;
 

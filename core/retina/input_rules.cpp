@@ -1,4 +1,4 @@
-#include "core/retina/input_rules.h"
+#include "core/retina/retina.h"
 
 #include <cmath>
 #include <string>
@@ -23,16 +23,24 @@ bool size_fits(int width_px, int height_px) {
 /// NaN lies in no range.
 bool within(double value, double low, double high) { return value >= low && value <= high; }
 
-Status check_slices(const RetinaInput& input) {
+Status check_powers(const std::vector<PowerShare>& powers, const std::string& who) {
+  for (const PowerShare& part : powers) {
+    if (!std::isfinite(part.power_d)) return unfit("a power of " + who + " is no number");
+    if (!within(part.share, 0.0, 1.0)) return unfit("a share of " + who + " lies outside 0 to 1");
+  }
+  return {};
+}
+
+Status check_exposures(const RetinaInput& input) {
   const std::size_t bytes = static_cast<std::size_t>(input.projector.width_px) *
                             static_cast<std::size_t>(input.projector.height_px) *
                             static_cast<std::size_t>(input.channels);
-  for (std::size_t i = 0; i < input.slices.size(); ++i) {
-    const RetinaSlice& slice = input.slices[i];
-    if (!std::isfinite(slice.power_d)) return unfit("the power of slice " + std::to_string(i) + " is no number");
-    if (slice.codes.size() != bytes) {
-      return unfit("slice " + std::to_string(i) + " has " + std::to_string(slice.codes.size()) + " codes, not " +
-                   std::to_string(bytes));
+  for (std::size_t i = 0; i < input.exposures.size(); ++i) {
+    const RetinaExposure& exposure = input.exposures[i];
+    const std::string who = "exposure " + std::to_string(i);
+    if (Status fits = check_powers(exposure.powers, who); !fits) return fits;
+    if (exposure.codes.size() != bytes) {
+      return unfit(who + " has " + std::to_string(exposure.codes.size()) + " codes, not " + std::to_string(bytes));
     }
   }
   return {};
@@ -48,6 +56,10 @@ Status check_retina(const RetinaInput& input, const RetinaView& view) {
   if (!within(input.gamma, 0.1, 10.0)) return unfit("the projector's gamma lies outside 0.1 to 10");
   if (!within(input.lens_to_pupil_m, 0.0, 1.0)) return unfit("the lens lies outside 0 to 1 m before the pupil");
   if (!within(input.lens_aperture_m, 0.0, 1.0)) return unfit("the lens aperture lies outside 0 to 1 m");
+  if (!within(std::abs(input.projector_focus.focus_d), 0.0, 1e3) ||
+      !within(input.projector_focus.depth_of_field_d, 0.0, 1e3)) {
+    return unfit("the projector's focus lies outside -1000 to 1000 D, or its depth of field outside 0 to 1000 D");
+  }
   if (!size_fits(view.width_px, view.height_px))
     return unfit("the picture's size lies outside 1 to 8192 px a side, 2^24 in all");
   if (!within(view.fov_deg, 0.01, 170.0)) return unfit("the field of view lies outside 0.01 to 170 degrees");
@@ -61,7 +73,7 @@ Status check_retina(const RetinaInput& input, const RetinaView& view) {
               most_head_offset_m * most_head_offset_m)) {
     return unfit("the head moved by more than a metre");
   }
-  return check_slices(input);
+  return check_exposures(input);
 }
 
 }  // namespace focalstage

@@ -7,9 +7,10 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "core/optics/vergence.h"
 #include "core/retina/blur.h"
-#include "core/retina/input_rules.h"
+#include "core/retina/focus.h"
+#include "core/retina/lens_rim.h"
+#include "core/retina/passes.h"
 #include "core/retina/sight_at.h"
 #include "core/retina/slice_light.h"
 #include "core/retina/slice_maps.h"
@@ -18,7 +19,6 @@ namespace focalstage {
 namespace {
 
 constexpr int least_margin_px = 8;
-constexpr int most_factor = 16;
 
 const Fault cancelled{"retina.cancelled", "", "stopped before the picture was done", ""};
 
@@ -28,65 +28,173 @@ struct Radii {
   float most_px = 0.0f;
 };
 
-/// How the view turns vergences at the pupil into blur.
-struct Focus {
-  float at_pupil_d = 0.0f;
-  float px_per_d = 0.0f;  ///< radius: half the pupil over the size of a pixel in the tangent plane
-
-  explicit Focus(const RetinaInput& input, const RetinaView& view)
-      : at_pupil_d(static_cast<float>(vergence_at_pupil_d(view.focus_d, input.lens_to_pupil_m))),
-        px_per_d(static_cast<float>(0.5 * view.pupil_m / grid_of(view, 0).step.x)) {}
-
-  float radius_px(float vergence_d) const {
-    return std::min(BlurLayers::most_radius_px, px_per_d * std::abs(vergence_d - at_pupil_d));
-  }
-
-  Radii radii(const std::vector<const SliceMap*>& maps) const {
-    Radii all{BlurLayers::most_radius_px, 0.0f};
-    for (const SliceMap* map : maps) {
-      if (!map->any) continue;
-      const float low_px = radius_px(map->lowest_vergence_d), high_px = radius_px(map->highest_vergence_d);
-      const bool sharp = map->lowest_vergence_d <= at_pupil_d && at_pupil_d <= map->highest_vergence_d;
-      all.least_px = sharp ? 0.0f : std::min({all.least_px, low_px, high_px});
-      all.most_px = std::max({all.most_px, low_px, high_px});
-    }
-    all.least_px = std::min(all.least_px, all.most_px);
-    return all;
-  }
+/// The light of an exposure, averaged over what a look sees of it, and out of the projector's focus by rising radius;
+/// the first is sharp.
+struct Levels {
+  std::vector<SliceLight> lights;
+  std::vector<float> radii_px{0.0f};
 };
 
-std::vector<double> powers_of(const RetinaInput& input) {
+/// For whole pixels and for the parts of those that an edge runs through: averaged over a whole pixel, a part would
+/// take half its light from beyond the edge.
+struct ExposureLight {
+  Levels whole, part;
+
+  bool any() const { return !whole.lights.empty() && whole.lights.front().any; }
+};
+
+/// What stands between maps and picture: everything a row needs.
+struct Work {
+  const std::vector<Pass>& passes;
+  const std::vector<const SliceMap*>& maps;  ///< one per pass
+  const std::vector<ExposureLight>& lights;  ///< one per exposure
+  const Focus& focus;
+  const LensRim& rim;
+};
+
+Radii radii_of(const Focus& focus, const std::vector<const SliceMap*>& maps) {
+  Radii all{BlurLayers::most_radius_px, 0.0f};
+  for (const SliceMap* map : maps) {
+    if (!map->any) continue;
+    for (int channel = 0; channel < focus.channels(); ++channel) {
+      const float low_px = focus.radius_px(map->lowest_vergence_d, channel);
+      const float high_px = focus.radius_px(map->highest_vergence_d, channel);
+      const bool sharp = focus.between(map->lowest_vergence_d, map->highest_vergence_d, channel);
+      all.least_px = std::min(all.least_px, sharp ? focus.least_px() : std::min(low_px, high_px));
+      all.most_px = std::max({all.most_px, low_px, high_px});
+    }
+  }
+  all.least_px = std::min(all.least_px, all.most_px);
+  return all;
+}
+
+std::vector<double> powers_of(const std::vector<Pass>& passes) {
   std::vector<double> powers_d;
-  for (const RetinaSlice& slice : input.slices) powers_d.push_back(slice.power_d);
+  for (const Pass& pass : passes) powers_d.push_back(pass.power_d);
   return powers_d;
 }
 
-/// Light of every slice that reaches the grid, at the size at which the grid sees it.
-std::vector<SliceLight> lights_of(const RetinaInput& input, const std::vector<const SliceMap*>& maps,
-                                  const std::stop_token& stop) {
+/// Blur of the projector's is kept in steps of a factor of two; between two of them light is mixed by the square of the
+/// radius.
+Levels levels_of(SliceLight light, float most_px) {
+  Levels levels;
+  levels.lights.push_back(std::move(light));
+  for (float radius_px = 0.5f; levels.lights.front().any && levels.radii_px.back() < most_px; radius_px *= 2.0f) {
+    levels.lights.push_back(spread_light(levels.lights.front(), radius_px));
+    levels.radii_px.push_back(radius_px);
+  }
+  return levels;
+}
+
+bool has_edges(const SliceMap& map) {
+  return std::any_of(map.edges.begin(), map.edges.end(), [](const auto& row) { return !row.empty(); });
+}
+
+/// Light of every exposure that reaches the grid.
+std::vector<ExposureLight> lights_of(const RetinaInput& input, const std::vector<Pass>& passes,
+                                     const std::vector<const SliceMap*>& maps, const std::stop_token& stop) {
   const auto light_of_code = light_of_codes(input.bits, input.gamma);
-  std::vector<SliceLight> lights(input.slices.size());
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    if (!maps[i]->any) continue;
-    const int factor = static_cast<int>(std::clamp(maps[i]->footprint_px + 0.5, 1.0, double{most_factor}));
-    lights[i] = slice_light(input.slices[i].codes, input.projector.width_px, input.projector.height_px, input.channels,
-                            factor, light_of_code, stop);
+  std::vector<ExposureLight> lights(input.exposures.size());
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    ExposureLight& light = lights[passes[i].exposure];
+    const SliceMap& map = *maps[i];
+    if (!map.any) continue;
+    const auto averaged_over = [&](const glm::dvec2& seen_px) {
+      return levels_of(slice_light(input.exposures[passes[i].exposure].codes, input.projector.width_px,
+                                   input.projector.height_px, input.channels, seen_px, light_of_code, stop),
+                       map.most_spread_px);
+    };
+    if (light.whole.lights.empty()) light.whole = averaged_over(map.seen_px);
+    if (light.part.lights.empty() && light.any() && has_edges(map))
+      light.part = averaged_over(map.seen_px / static_cast<double>(EdgePixel::across));
+    if (stop.stop_requested()) return lights;
   }
   return lights;
 }
 
+/// Reads an exposure where the projector is as sharp as a spot says.
 template <int channels>
-void add_row(const SliceMap& map, const SliceLight& light, const Focus& focus, int row, BlurLayers& layers) {
-  const LightSampler<channels> sampler(light);
-  const SliceSpot* spots = &map.spots[static_cast<std::size_t>(row) * static_cast<std::size_t>(map.grid.width_px)];
-  for (int column = 0; column < map.grid.width_px; ++column) {
-    const SliceSpot& spot = spots[column];
-    if (!spot.lit()) continue;
-    const std::array<float, channels> seen = sampler.at(spot.x_px, spot.y_px);
+class ExposureSampler {
+ public:
+  explicit ExposureSampler(const Levels& levels) : radii_px_(levels.radii_px) {
+    for (const SliceLight& level : levels.lights) levels_.emplace_back(level);
+  }
+
+  std::array<float, channels> at(const SliceSpot& spot) const {
+    if (levels_.size() == 1 || spot.spread_px <= 0.0f) return levels_.front().at(spot.x_px, spot.y_px);
+    std::size_t upper = 1;
+    while (upper + 1 < levels_.size() && radii_px_[upper] < spot.spread_px) ++upper;
+    const float low = radii_px_[upper - 1], high = radii_px_[upper];
+    const float share = std::min(1.0f, (spot.spread_px * spot.spread_px - low * low) / (high * high - low * low));
+    std::array<float, channels> light = levels_[upper - 1].at(spot.x_px, spot.y_px);
+    const std::array<float, channels> other = levels_[upper].at(spot.x_px, spot.y_px);
+    for (std::size_t c = 0; c < channels; ++c) light[c] += share * (other[c] - light[c]);
+    return light;
+  }
+
+ private:
+  std::vector<LightSampler<channels>> levels_;
+  const std::vector<float>& radii_px_;
+};
+
+/// One pass on its way into the layers: all channels alike, or each by its own colour's focus.
+template <int channels>
+class PassPainter {
+ public:
+  PassPainter(const Work& work, std::size_t pass, BlurLayers& layers)
+      : work_(work),
+        map_(*work.maps[pass]),
+        whole_(work.lights[work.passes[pass].exposure].whole),
+        part_(work.lights[work.passes[pass].exposure].part),
+        share_(work.passes[pass].share),
+        layers_(layers) {}
+
+  void row(int row) {
+    const SliceSpot* spots = &map_.spots[static_cast<std::size_t>(row) * static_cast<std::size_t>(map_.grid.width_px)];
+    auto edge = map_.edges[static_cast<std::size_t>(row)].begin();
+    const auto edges_end = map_.edges[static_cast<std::size_t>(row)].end();
+    for (int column = 0; column < map_.grid.width_px; ++column) {
+      if (edge == edges_end || static_cast<int>(edge->column) != column) {
+        if (spots[column].lit()) add(column, row, spots[column], whole_, share_);
+        continue;
+      }
+      for (const SliceSpot& part : edge->spots) {
+        if (part.lit()) add(column, row, part, part_, share_ / static_cast<float>(edge->spots.size()));
+      }
+      ++edge;
+    }
+  }
+
+ private:
+  void add(int column, int row, const SliceSpot& spot, const ExposureSampler<channels>& sampler, float share) {
+    std::array<float, channels> seen = sampler.at(spot);
     float sum = 0.0f;
     for (const float one : seen) sum += one;
-    if (!(sum > 0.0f)) continue;
-    layers.add<channels>(column, row, BlurLayers::share(focus.radius_px(spot.vergence_d)), seen.data());
+    if (!(sum > 0.0f)) return;
+    const float open = share * work_.rim.open_share(map_.grid.look(column, row), spot.vergence_d);
+    for (float& one : seen) one *= open;
+    if (work_.focus.channels() == 1) {
+      layers_.add<channels>(column, row, BlurLayers::share(work_.focus.radius_px(spot.vergence_d, 0)), seen.data());
+      return;
+    }
+    for (int c = 0; c < 3; ++c) {
+      const BlurShare blur = BlurLayers::share(work_.focus.radius_px(spot.vergence_d, c));
+      layers_.add_channel(column, row, blur, c, seen[channels == 3 ? static_cast<std::size_t>(c) : 0]);
+    }
+  }
+
+  const Work& work_;
+  const SliceMap& map_;
+  ExposureSampler<channels> whole_, part_;
+  float share_;
+  BlurLayers& layers_;
+};
+
+/// One row of all passes.
+template <int channels>
+void paint_row(const Work& work, int row, BlurLayers& layers) {
+  for (std::size_t pass = 0; pass < work.passes.size(); ++pass) {
+    if (work.lights[work.passes[pass].exposure].any()) PassPainter<channels>(work, pass, layers).row(row);
   }
 }
 
@@ -122,30 +230,31 @@ struct Retina::State {
 
 Result<RetinaImage> Retina::State::view(const RetinaInput& input, const RetinaView& view, const std::stop_token& stop) {
   const Focus focus(input, view);
-  const std::vector<double> powers_d = powers_of(input);
-  std::vector<const SliceMap*> slices;
+  const LensRim rim(input, view);
+  const std::vector<Pass> passes = passes_of(input, view);
+  std::vector<const SliceMap*> seen;
   Radii radii;
   for (bool wide_enough = false; !wide_enough;) {
-    slices = maps.of(input, view, margin_px, powers_d, stop);
+    seen = maps.of(input, view, margin_px, powers_of(passes), stop);
     if (stop.stop_requested()) return cancelled;
-    radii = focus.radii(slices);
+    radii = radii_of(focus, seen);
     wide_enough = radii.most_px <= static_cast<float>(margin_px);
     while (static_cast<float>(margin_px) < radii.most_px) margin_px *= 2;
   }
   const int margin = margin_px;
   while (margin_px > least_margin_px && radii.most_px < static_cast<float>(margin_px) / 4.0f) margin_px /= 2;
-  const std::vector<SliceLight> lights = lights_of(input, slices, stop);
+  const std::vector<ExposureLight> lights = lights_of(input, passes, seen, stop);
+  if (stop.stop_requested()) return cancelled;
   const LookGrid grid = grid_of(view, margin);
-  BlurLayers layers(grid.width_px, grid.height_px, input.channels, radii.least_px, radii.most_px);
+  const int channels = focus.channels() == 3 ? 3 : input.channels;
+  BlurLayers layers(grid.width_px, grid.height_px, channels, radii.least_px, radii.most_px);
+  const Work work{passes, seen, lights, focus, rim};
   tbb::parallel_for(0, grid.height_px, [&](int row) {
-    if (stop.stop_requested()) return;
-    for (std::size_t i = 0; i < slices.size(); ++i) {
-      if (lights[i].any) (input.channels == 1 ? add_row<1> : add_row<3>)(*slices[i], lights[i], focus, row, layers);
-    }
+    if (!stop.stop_requested()) (input.channels == 1 ? paint_row<1> : paint_row<3>)(work, row, layers);
   });
   const std::vector<float> planes = layers.blurred(stop);
   if (stop.stop_requested()) return cancelled;
-  return image_of(planes, grid, margin, view, input.channels);
+  return image_of(planes, grid, margin, view, channels);
 }
 
 Result<std::optional<RetinaSight>> Retina::State::look_at(const RetinaInput& input, const RetinaView& view,
@@ -153,13 +262,19 @@ Result<std::optional<RetinaSight>> Retina::State::look_at(const RetinaInput& inp
   const glm::dvec2 pixel = pixel_of_look(view, look);
   const bool inside = pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < view.width_px && pixel.y < view.height_px;
   if (!inside) return std::optional<RetinaSight>();
-  std::vector<double> powers_d = powers_of(input);
+  const std::vector<Pass> passes = passes_of(input, view);
+  std::vector<double> powers_d = powers_of(passes);
   powers_d.push_back(0.0);  // the bare surface
-  const std::vector<const SliceMap*> slices = maps.of(input, view, margin_px, powers_d, stop);
+  const std::vector<const SliceMap*> seen = maps.of(input, view, margin_px, powers_d, stop);
   if (stop.stop_requested()) return cancelled;
-  const std::vector<SliceLight> lights = lights_of(input, slices, stop);
+  const std::vector<ExposureLight> lights = lights_of(input, passes, seen, stop);
   if (stop.stop_requested()) return cancelled;
-  return sight_at(slices, lights, eye_of(input, view), static_cast<int>(pixel.x) + margin_px,
+  std::vector<SeenPass> lit;
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    const ExposureLight& light = lights[passes[i].exposure];
+    if (light.any()) lit.push_back({seen[i], &light.whole.lights.front(), passes[i].share});
+  }
+  return sight_at(lit, *seen.back(), eye_of(input, view), static_cast<int>(pixel.x) + margin_px,
                   static_cast<int>(pixel.y) + margin_px);
 }
 

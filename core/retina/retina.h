@@ -12,24 +12,35 @@
 
 #include "core/base/result.h"
 #include "core/base/sides.h"
+#include "core/optics/power_share.h"
 #include "core/optics/projector_model.h"
 #include "core/stage/stage.h"
 
 namespace focalstage {
 
-// What one eye sees of a show: the exposures of one period, each through its own lens power, added in linear light.
+// What one eye sees of a show: the exposures of one period, each through the lens powers that pass meanwhile, added in
+// linear light.
 //
-// The layered, geometric answer, fast enough to follow a hand: directions are those of the thin lens (design section
-// 5), an exposure has the one power of its middle, shutters are ideal, defocus is the pupil's disc, diffraction and
-// colour are left out.
+// The layered answer, fast enough to follow a hand: directions are those of the thin lens (design section 5), an
+// exposure is cut into as many powers as the picture can tell apart, defocus is the pupil's disc. What it is held
+// against integrates rays (core/reference/seen.h).
 
-/// One exposure that reaches the eye.
-struct RetinaSlice {
+/// One exposure that reaches the eye, its own or one that leaks in.
+struct RetinaExposure {
   std::span<const std::uint8_t> codes;  ///< [height][width][channels] of the projector's image
-  double power_d = 0.0;                 ///< of the lens meanwhile
+  std::vector<PowerShare> powers;       ///< of the lens meanwhile, in time order
+  bool own = true;                      ///< meant for this eye
 };
 
-/// The rig and what it shows this eye: its own slices and the light image, as long as each other.
+/// The projector's own blur: a disc in its image, as wide as a pixel at either end of its depth of field.
+struct ProjectorFocus {
+  double focus_d = 0.0;           ///< 1 / distance along its axis
+  double depth_of_field_d = 0.0;  ///< the whole; 0: sharp everywhere
+
+  bool operator==(const ProjectorFocus&) const = default;
+};
+
+/// The rig and what it shows this eye.
 struct RetinaInput {
   const Stage* stage = nullptr;  ///< surfaces and viewer; virtual objects do not matter
   ProjectorModel projector;
@@ -37,8 +48,9 @@ struct RetinaInput {
   int bits = 8;
   double gamma = 1.0;
   double lens_to_pupil_m = 0.015;
-  double lens_aperture_m = 0.016;  ///< diameter; a direction that misses it is dark
-  std::vector<RetinaSlice> slices;
+  double lens_aperture_m = 0.016;  ///< diameter; rays that miss it are lost
+  ProjectorFocus projector_focus;
+  std::vector<RetinaExposure> exposures;
 };
 
 /// How the eye looks: a picture of square pixels in its tangent plane.
@@ -46,6 +58,12 @@ struct RetinaView {
   Side eye = Side::left;
   double focus_d = 2.0;    ///< accommodation, as the vergence from the lens centre of what is sharp (design's 1/d_v)
   double pupil_m = 0.004;  ///< diameter
+  /// Blur by the pupil's edge: as wide as a disc of the same spread as the Gaussian next to the Airy pattern, sigma
+  /// 0.42 wavelengths over the pupil (550 nm).
+  bool diffraction = false;
+  /// The eye's longitudinal chromatic aberration: the chromatic eye of Thibos et al. 1992, at 610, 550 and 465 nm about
+  /// 550. White light of a gray show is split into these three.
+  bool chromatic = false;
   int width_px = 400;
   int height_px = 300;
   double fov_deg = 50.0;          ///< horizontal
@@ -59,7 +77,7 @@ struct RetinaView {
 glm::dvec2 look_of_pixel(const RetinaView& view, const glm::dvec2& pixel);
 glm::dvec2 pixel_of_look(const RetinaView& view, const glm::dvec2& look);
 
-/// Linear light, 1 = full code of one exposure; rows from the top, three values per pixel.
+/// Linear light, 1 = full code of one whole exposure; rows from the top, three values per pixel.
 struct RetinaImage {
   int width_px = 0;
   int height_px = 0;
@@ -74,6 +92,9 @@ struct RetinaSight {
       0.0;           ///< where its picture lies (1/d_v), as a mean of the exposures by luminance: the focus it asks
   bool lit = false;  ///< no light: vergence and spot are the bare surface's, seen through no power
 };
+
+/// What keeps an input or a view from meaning anything: a Fault "retina.input".
+Status check_retina(const RetinaInput& input, const RetinaView& view);
 
 /// Keeps between calls what did not change: where the looks of each slice meet surfaces that stand still, and which
 /// pixel of the projector lights those spots. Focus, pupil and images can change at the cost of sampling and blurring.

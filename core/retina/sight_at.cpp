@@ -44,28 +44,28 @@ struct Mean {
   double most = 0.0;
   RetinaSight brightest;
 
-  void add(const SliceMap& map, const SliceLight& light, Pixel pixel, const Eye& eye) {
-    const SliceSpot& spot = spot_in(map, pixel);
-    if (!light.any || !spot.lit()) return;
-    const double own = luminance_of(light, spot);
+  void add(const SeenPass& pass, Pixel pixel, const Eye& eye) {
+    const SliceSpot& spot = spot_in(*pass.map, pixel);
+    if (!spot.lit()) return;
+    const double own = pass.share * luminance_of(*pass.light, spot);
     luminance += own;
     vergence_d += own * vergence_at_lens_d(spot.vergence_d, eye.lens_to_pupil_m);
     if (own <= most) return;
     most = own;
-    brightest = sight_of(map, pixel, eye);
+    brightest = sight_of(*pass.map, pixel, eye);
   }
 };
 
 }  // namespace
 
-std::optional<RetinaSight> sight_at(const std::vector<const SliceMap*>& maps, const std::vector<SliceLight>& lights,
-                                    const Eye& eye, int column, int row) {
-  const LookGrid& grid = maps.back()->grid;
+std::optional<RetinaSight> sight_at(const std::vector<SeenPass>& passes, const SliceMap& bare, const Eye& eye,
+                                    int column, int row) {
+  const LookGrid& grid = bare.grid;
   for (int side = 0; side <= widest; ++side) {
     Mean mean;
     for (int y = std::max(0, row - side); y <= std::min(grid.height_px - 1, row + side); ++y) {
       for (int x = std::max(0, column - side); x <= std::min(grid.width_px - 1, column + side); ++x) {
-        for (std::size_t i = 0; i < lights.size(); ++i) mean.add(*maps[i], lights[i], {x, y}, eye);
+        for (const SeenPass& pass : passes) mean.add(pass, {x, y}, eye);
       }
     }
     if (!(mean.luminance > 0.0)) continue;
@@ -73,8 +73,8 @@ std::optional<RetinaSight> sight_at(const std::vector<const SliceMap*>& maps, co
     mean.brightest.lit = true;
     return mean.brightest;
   }
-  if (!spot_in(*maps.back(), {column, row}).seen()) return std::nullopt;
-  return sight_of(*maps.back(), {column, row}, eye);
+  if (!spot_in(bare, {column, row}).seen()) return std::nullopt;
+  return sight_of(bare, {column, row}, eye);
 }
 
 }  // namespace focalstage

@@ -1,29 +1,37 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
 #include <stop_token>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 namespace focalstage {
 
 /// Linear light of each projector code: (code / (2^bits - 1))^gamma, the encoder's inverse.
 std::array<float, 256> light_of_codes(int bits, double gamma);
 
-/// One image of the projector in linear light, averaged over squares of `factor` pixels so that one bilinear sample
-/// stands for what a retinal pixel sees of it. A frame of one square repeats the edge.
+/// One image of the projector in linear light, so averaged that reading between its pixels gives the mean over the
+/// rectangle that a retinal pixel sees of it: each projector pixel is a square of even light. A frame of one pixel
+/// repeats the edge.
 struct SliceLight {
-  int width = 0;  ///< in squares, with the frame; the last of a row or column may be cut off by the image's edge
+  int width = 0;  ///< with the frame
   int height = 0;
   int channels = 1;
-  int factor = 1;
+  glm::vec2 seen_px{1.0f};    ///< sides of that rectangle
   std::vector<float> values;  ///< [row][column][channel]
   bool any = false;
 };
 
-SliceLight slice_light(std::span<const std::uint8_t> codes, int width_px, int height_px, int channels, int factor,
-                       const std::array<float, 256>& light_of_code, const std::stop_token& stop);
+SliceLight slice_light(std::span<const std::uint8_t> codes, int width_px, int height_px, int channels,
+                       const glm::dvec2& seen_px, const std::array<float, 256>& light_of_code,
+                       const std::stop_token& stop);
+
+/// The same out of focus: every pixel spread over a disc.
+SliceLight spread_light(const SliceLight& light, double radius_px);
 
 /// Reads a slice's light at places of the image.
 template <int channels>
@@ -32,13 +40,15 @@ class LightSampler {
   explicit LightSampler(const SliceLight& light)
       : values_(light.values.data()),
         stride_(static_cast<std::size_t>(light.width) * channels),
-        per_square_(1.0f / static_cast<float>(light.factor)) {}
+        steep_{1.0f / std::min(1.0f, light.seen_px.x), 1.0f / std::min(1.0f, light.seen_px.y)} {}
 
-  /// At a place within the image, in the projector's pixels.
+  /// At a place within the image, in the projector's pixels. Between two pixels' centres the light runs from one to the
+  /// other over as much of the way as the rectangle is wide.
   std::array<float, channels> at(float x_px, float y_px) const {
-    const float x = x_px * per_square_ + 0.5f, y = y_px * per_square_ + 0.5f;  // a half for the frame
+    const float x = x_px + 0.5f, y = y_px + 0.5f;  // the frame
     const auto column = static_cast<std::int32_t>(x), row = static_cast<std::int32_t>(y);
-    const float right = x - static_cast<float>(column), down = y - static_cast<float>(row);
+    const float right = share(x - static_cast<float>(column), steep_.x);
+    const float down = share(y - static_cast<float>(row), steep_.y);
     const float* upper =
         values_ + static_cast<std::size_t>(row) * stride_ + static_cast<std::size_t>(column) * channels;
     const float* lower = upper + stride_;
@@ -52,9 +62,11 @@ class LightSampler {
   }
 
  private:
+  static float share(float between, float steep) { return std::clamp((between - 0.5f) * steep + 0.5f, 0.0f, 1.0f); }
+
   const float* values_;
   std::size_t stride_;
-  float per_square_;
+  glm::vec2 steep_;
 };
 
 }  // namespace focalstage

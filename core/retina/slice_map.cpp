@@ -4,65 +4,16 @@
 #include <cmath>
 
 #include <tbb/parallel_for.h>
-#include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
+
+#include "core/retina/spotter.h"
 
 namespace focalstage {
 namespace {
 
-constexpr double near_plane_m = 1e-3;  ///< nothing nearer to the lens centre is seen, as in the compiler
-
-/// Area of the projector's image between neighbouring looks, summed; only where they see one face.
+/// How far apart neighbouring looks lie in the projector's image, summed; only where they see one face.
 struct Footprint {
-  double area_px = 0.0;
+  glm::dvec2 apart_px{0.0};
   int count = 0;
-};
-
-/// Reads the nearest faces of one slice into spots.
-class Spotter {
- public:
-  Spotter(const SurfaceRaster& raster, const ProjectorLight& light, const SliceEye& eye, double lens_radius_m)
-      : raster_(raster), light_(light), eye_(eye) {
-    const Rigid projector_from_slice = light.projector_from_world() * eye.slice_from_world.inverse();
-    turn_ = glm::mat3_cast(projector_from_slice.rotation);
-    shift_m_ = projector_from_slice.position_m;
-    const double most_look = lens_radius_m / eye.lens_to_pupil_m;  // infinite where lens and pupil are one
-    most_look_squared_ = most_look * most_look;
-  }
-
-  void row(const LookGrid& grid, int row, SliceSpot* spots) const {
-    for (int column = 0; column < grid.width_px; ++column) {
-      const std::uint32_t face = raster_.at(column, row);
-      if (face == SurfaceRaster::nothing) continue;
-      const glm::dvec2 look = grid.look(column, row);
-      if (glm::dot(look, look) > most_look_squared_) continue;
-      spots[column] = spot(look * eye_.narrowing, face);
-    }
-  }
-
- private:
-  /// The picture's vergence at the pupil, 1 / (1 / (1/d_p - v) + d_e), and the spot as the projector sees it; both in
-  /// one division each, from the inverse of the distance.
-  SliceSpot spot(const glm::dvec2& narrowed, std::uint32_t face) const {
-    const double inverse_m = raster_.faces[face].inverse_depth(narrowed);
-    const double beyond_lens = 1.0 - eye_.behind_lens_m * inverse_m;  // d_p * inverse_m
-    const double vergence = inverse_m - eye_.power_d * beyond_lens;   // (1/d_p - v) * beyond_lens
-    const double grown = beyond_lens + eye_.lens_to_pupil_m * vergence;
-    SliceSpot spot;
-    spot.vergence_d = static_cast<float>(grown > 0.0 ? vergence / grown : -most_vergence_d);
-    if (const auto pixel = light_.pixel(turn_ * glm::dvec3(narrowed, -1.0) + shift_m_ * inverse_m, inverse_m, face)) {
-      spot.x_px = static_cast<float>(pixel->x);
-      spot.y_px = static_cast<float>(pixel->y);
-    }
-    return spot;
-  }
-
-  const SurfaceRaster& raster_;
-  const ProjectorLight& light_;
-  const SliceEye& eye_;
-  double most_look_squared_ = 0.0;
-  glm::dmat3 turn_;
-  glm::dvec3 shift_m_;
 };
 
 /// Of every fourth look along a row.
@@ -75,32 +26,39 @@ Footprint footprint_of_row(const SurfaceRaster& raster, const std::vector<SliceS
     if (!a.lit() || !b.lit() || !c.lit()) continue;
     const std::uint32_t face = raster.at(column, row);
     if (raster.at(column + 1, row) != face || raster.at(column, row + 1) != face) continue;
-    sum.area_px += std::abs((b.x_px - a.x_px) * (c.y_px - a.y_px) - (b.y_px - a.y_px) * (c.x_px - a.x_px));
+    sum.apart_px.x += std::abs(b.x_px - a.x_px) + std::abs(c.x_px - a.x_px);
+    sum.apart_px.y += std::abs(b.y_px - a.y_px) + std::abs(c.y_px - a.y_px);
     ++sum.count;
   }
   return sum;
 }
 
 void measure(const SurfaceRaster& raster, SliceMap& map) {
-  for (const SliceSpot& spot : map.spots) {
-    if (!spot.lit()) continue;
+  const auto include = [&](const SliceSpot& spot) {
+    if (!spot.lit()) return;
     map.lowest_vergence_d = map.any ? std::min(map.lowest_vergence_d, spot.vergence_d) : spot.vergence_d;
     map.highest_vergence_d = map.any ? std::max(map.highest_vergence_d, spot.vergence_d) : spot.vergence_d;
+    map.most_spread_px = std::max(map.most_spread_px, spot.spread_px);
     map.any = true;
+  };
+  for (const SliceSpot& spot : map.spots) include(spot);
+  for (const std::vector<EdgePixel>& row : map.edges) {
+    for (const EdgePixel& pixel : row) {
+      for (const SliceSpot& part : pixel.spots) include(part);
+    }
   }
   Footprint sum;
   for (int row = 0; row + 1 < map.grid.height_px; row += 4) {
     const Footprint one = footprint_of_row(raster, map.spots, row);
-    sum.area_px += one.area_px;
+    sum.apart_px += one.apart_px;
     sum.count += one.count;
   }
-  if (sum.count > 0) map.footprint_px = std::sqrt(sum.area_px / sum.count);
+  if (sum.count > 0) map.seen_px = sum.apart_px / static_cast<double>(sum.count);
 }
 
 }  // namespace
 
-SliceMap slice_map(const SurfaceMesh& mesh, const ProjectorLight& light, const SliceEye& eye, double lens_radius_m,
-                   const LookGrid& grid, const std::stop_token& stop) {
+SliceMap slice_map(const SliceScene& scene, const SliceEye& eye, const LookGrid& grid, const std::stop_token& stop) {
   SliceMap map;
   map.grid = grid;
   map.power_d = eye.power_d;
@@ -110,13 +68,22 @@ SliceMap slice_map(const SurfaceMesh& mesh, const ProjectorLight& light, const S
   narrowed.first *= eye.narrowing;
   narrowed.step *= eye.narrowing;
   const SurfaceRaster raster =
-      raster_surfaces(mesh, eye.slice_from_world, narrowed, eye.behind_lens_m + near_plane_m, stop);
-  const Spotter spotter(raster, light, eye, lens_radius_m);
+      raster_surfaces(scene.mesh, eye.slice_from_world, narrowed, eye.behind_lens_m + nearest_seen_m, stop);
+  const Spotter spotter(raster, scene, eye);
   tbb::parallel_for(0, grid.height_px, [&](int row) {
     if (stop.stop_requested()) return;
     spotter.row(grid, row, &map.spots[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width_px)]);
   });
-  if (!stop.stop_requested()) measure(raster, map);
+  if (stop.stop_requested()) return map;
+  const std::vector<EdgeFaces::Pixel> edges = spotter.edges(map.spots);
+  const EdgeFaces faces(raster, edges);
+  std::vector<EdgePixel> parts(edges.size());
+  tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
+    if (!stop.stop_requested()) parts[i] = spotter.parts_of(grid, edges[i], faces);
+  });
+  map.edges.resize(static_cast<std::size_t>(grid.height_px));
+  for (std::size_t i = 0; i < edges.size(); ++i) map.edges[static_cast<std::size_t>(edges[i].row)].push_back(parts[i]);
+  measure(raster, map);
   return map;
 }
 

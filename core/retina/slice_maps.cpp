@@ -9,6 +9,17 @@
 
 namespace focalstage {
 
+namespace {
+
+/// A ray to the pupil's rim passes the lens so much further from its centre than the look does, at most, rounded up so
+/// that the maps need not be made anew for each pupil.
+double widest_off_axis_m(const RetinaInput& input, const RetinaView& view) {
+  constexpr double step_m = 0.002;
+  return input.lens_aperture_m / 2.0 + std::ceil(view.pupil_m / 2.0 / step_m) * step_m;
+}
+
+}  // namespace
+
 Eye eye_of(const RetinaInput& input, const RetinaView& view) {
   const Stage& stage = *input.stage;
   const Rigid viewer_from_moved{view.head_offset_m, {1.0, 0.0, 0.0, 0.0}};
@@ -65,8 +76,14 @@ std::vector<const SliceMap*> SliceMaps::of(const RetinaInput& input, const Retin
   stand(input, stop);
   const Eye eye = eye_of(input, view);
   const LookGrid grid = grid_of(view, margin_px);
-  const Viewpoint viewpoint{eye.eye_from_world, input.lens_to_pupil_m, input.lens_aperture_m, grid.first,
-                            grid.step,          grid.width_px,         grid.height_px};
+  const Viewpoint viewpoint{eye.eye_from_world,
+                            input.lens_to_pupil_m,
+                            widest_off_axis_m(input, view),
+                            input.projector_focus,
+                            grid.first,
+                            grid.step,
+                            grid.width_px,
+                            grid.height_px};
   if (viewpoint_ != viewpoint) maps_.clear();
   viewpoint_ = viewpoint;
   std::erase_if(maps_, [&](const auto& map) {
@@ -79,8 +96,8 @@ std::vector<const SliceMap*> SliceMaps::of(const RetinaInput& input, const Retin
       all.push_back(map);
       continue;
     }
-    auto made = std::make_unique<SliceMap>(
-        slice_map(mesh_, *light_, slice_eye(eye, power_d), input.lens_aperture_m / 2.0, grid, stop));
+    const SliceScene scene{mesh_, *light_, viewpoint.projector_focus, viewpoint.widest_off_axis_m};
+    auto made = std::make_unique<SliceMap>(slice_map(scene, slice_eye(eye, power_d), grid, stop));
     if (stop.stop_requested()) return {};
     maps_.push_back(std::move(made));
     all.push_back(maps_.back().get());

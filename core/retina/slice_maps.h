@@ -38,7 +38,8 @@ class SliceMaps {
   struct Viewpoint {
     Rigid eye_from_world;
     double lens_to_pupil_m = 0.0;
-    double lens_aperture_m = 0.0;
+    double widest_off_axis_m = 0.0;
+    ProjectorFocus projector_focus;
     glm::dvec2 first{0.0};
     glm::dvec2 step{0.0};
     int width_px = 0;

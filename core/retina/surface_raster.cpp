@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <tbb/parallel_for.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace focalstage {
@@ -27,19 +28,19 @@ SeenFace seen_face(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
   return face;
 }
 
-/// The rows that a face can touch: all where a corner lies beside or behind the viewpoint.
-RowRange rows_of(const glm::dvec3* corners_m[3], const LookGrid& grid) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
+PixelBox box_of(const glm::dvec3* corners_m[3], const LookGrid& grid) {
+  glm::dvec2 low(std::numeric_limits<double>::infinity()), high = -low;
   for (int i = 0; i < 3; ++i) {
     const glm::dvec3& corner_m = *corners_m[i];
-    if (!(corner_m.z < -1e-6)) return {0, grid.height_px};
-    const double row = (corner_m.y / -corner_m.z - grid.first.y) / grid.step.y;
-    low = std::min(low, row);
-    high = std::max(high, row);
+    if (!(corner_m.z < -1e-6)) return {0, grid.width_px, 0, grid.height_px};
+    const glm::dvec2 place = (glm::dvec2(corner_m) / -corner_m.z - grid.first) / grid.step;
+    low = glm::min(low, place);
+    high = glm::max(high, place);
   }
-  const double most = grid.height_px;
-  return {static_cast<int>(std::clamp(std::floor(low) - 1.0, 0.0, most)),
-          static_cast<int>(std::clamp(std::ceil(high) + 2.0, 0.0, most))};
+  const glm::dvec2 size(grid.width_px, grid.height_px);
+  low = glm::clamp(glm::floor(low) - 1.0, glm::dvec2(0.0), size);
+  high = glm::clamp(glm::ceil(high) + 2.0, glm::dvec2(0.0), size);
+  return {static_cast<int>(low.x), static_cast<int>(high.x), static_cast<int>(low.y), static_cast<int>(high.y)};
 }
 
 /// The columns of a row that lie inside all edges. Both faces of an edge find the same crossing and both take it, with
@@ -118,22 +119,23 @@ SurfaceRaster raster_surfaces(const SurfaceMesh& mesh, const Rigid& view_from_wo
   const glm::dmat3 turn = glm::mat3_cast(view_from_world.rotation);
   tbb::parallel_for(std::size_t{0}, points_m.size(),
                     [&](std::size_t i) { points_m[i] = turn * mesh.points_m[i] + view_from_world.position_m; });
-  std::vector<RowRange> rows(mesh.faces.size());
+  raster.boxes.resize(mesh.faces.size());
   tbb::parallel_for(std::size_t{0}, mesh.faces.size(), [&](std::size_t i) {
     const glm::uvec3& face = mesh.faces[i];
     const glm::dvec3* corners_m[3] = {&points_m[face.x], &points_m[face.y], &points_m[face.z]};
     raster.faces[i] = seen_face(*corners_m[0], *corners_m[1], *corners_m[2]);
-    if (raster.faces[i].inverse_m != glm::dvec3(0.0)) rows[i] = rows_of(corners_m, grid);
+    if (raster.faces[i].inverse_m != glm::dvec3(0.0)) raster.boxes[i] = box_of(corners_m, grid);
   });
   tbb::parallel_for(0, bands, [&](int i) {
     Band band;
     band.rows = {grid.height_px * i / bands, grid.height_px * (i + 1) / bands};
     band.inverse_m.assign(
         static_cast<std::size_t>(band.rows.end - band.rows.begin) * static_cast<std::size_t>(grid.width_px), 0.0);
-    for (std::size_t face = 0; face < rows.size(); ++face) {
+    for (std::size_t face = 0; face < raster.boxes.size(); ++face) {
       if (face % 1024 == 0 && stop.stop_requested()) return;
-      const RowRange own{std::max(rows[face].begin, band.rows.begin), std::min(rows[face].end, band.rows.end)};
-      if (own.begin < own.end) {
+      const PixelBox& box = raster.boxes[face];
+      const RowRange own{std::max(box.row_begin, band.rows.begin), std::min(box.row_end, band.rows.end)};
+      if (own.begin < own.end && !box.empty()) {
         draw(static_cast<std::uint32_t>(face), raster.faces[face], own, 1.0 / nearest_m, band, raster);
       }
     }

@@ -47,12 +47,26 @@ struct SeenFace {
   }
 };
 
+/// The columns and rows that a face can touch; all where a corner lies beside or behind the viewpoint.
+struct PixelBox {
+  int column_begin = 0;
+  int column_end = 0;
+  int row_begin = 0;
+  int row_end = 0;
+
+  bool empty() const { return column_begin >= column_end || row_begin >= row_end; }
+  bool holds(int column, int row) const {
+    return column >= column_begin && column < column_end && row >= row_begin && row < row_end;
+  }
+};
+
 /// The nearest face in each pixel of a grid.
 struct SurfaceRaster {
   static constexpr std::uint32_t nothing = std::numeric_limits<std::uint32_t>::max();
 
   LookGrid grid;
   std::vector<SeenFace> faces;         ///< as those of the mesh
+  std::vector<PixelBox> boxes;         ///< of the faces
   std::vector<std::uint32_t> nearest;  ///< [row][column]
 
   std::uint32_t at(int column, int row) const {

@@ -112,10 +112,10 @@ ExitStatus run(const Options& options) {
       write_png16(options.picture, view->width_px, view->height_px, channels, levels_of(*image, channels));
   if (!written) return report(written.fault());
   if (options.json) {
-    print_report(options, *view, *image, input.slices.size());
+    print_report(options, *view, *image, input.exposures.size());
   } else {
     std::printf("%s: the %s eye focused at %s m (%s D), %zu exposures\n", options.picture.c_str(), options.eye.c_str(),
-                short_number(options.focus_m).c_str(), short_number(view->focus_d).c_str(), input.slices.size());
+                short_number(options.focus_m).c_str(), short_number(view->focus_d).c_str(), input.exposures.size());
   }
   return ExitStatus::done;
 }

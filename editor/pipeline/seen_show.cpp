@@ -1,7 +1,5 @@
 #include "editor/pipeline/seen_show.h"
 
-#include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "editor/pipeline/source.h"
@@ -26,7 +24,8 @@ void place(const FramePoses& poses, Stage& stage) {
 
 }  // namespace
 
-Result<SeenShow> SeenShow::of(const ShowReader& show, const std::string& name, int frame, Side eye) {
+Result<SeenShow> SeenShow::of(const ShowReader& show, const std::string& name, int frame, Side eye,
+                              const std::optional<WornGlasses>& glasses) {
   const ShowHeader& header = show.header();
   auto source = project_in(show, name);
   if (!source) return source.fault();
@@ -40,25 +39,12 @@ Result<SeenShow> SeenShow::of(const ShowReader& show, const std::string& name, i
   place(header.poses[static_cast<std::size_t>(frame)], seen.stage_);
   seen.settings_ = compile_settings(source->project);
   seen.images_ = *std::move(images);
-  seen.lens_aperture_m_ = source->project.glasses.lens_aperture_mm / 1000.0;
-  std::copy_if(header.schedule.slots.begin(), header.schedule.slots.end(), std::back_inserter(seen.slots_),
-               [&](const Slot& slot) { return slot.eye == eye; });
+  seen.schedule_ = header.schedule;
+  seen.glasses_ = glasses ? *glasses : worn_glasses(source->project.glasses);
+  seen.eye_ = eye;
   return seen;
 }
 
-RetinaInput SeenShow::input() const {
-  RetinaInput input;
-  input.stage = &stage_;
-  input.projector = settings_.projector;
-  input.channels = images_.channels;
-  input.bits = settings_.bits;
-  input.gamma = settings_.gamma;
-  input.lens_to_pupil_m = settings_.lens_to_pupil_m;
-  input.lens_aperture_m = lens_aperture_m_;
-  for (const Slot& slot : slots_) {
-    input.slices.push_back({images_.image(static_cast<std::size_t>(slot.image)), slot.power_d});
-  }
-  return input;
-}
+RetinaInput SeenShow::input() const { return seen_frame(stage_, settings_, images_, schedule_, glasses_, eye_); }
 
 }  // namespace focalstage

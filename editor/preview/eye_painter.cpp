@@ -5,16 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "core/percept/seen_frame.h"
 #include "editor/tools/srgb.h"
 
 namespace focalstage {
 namespace {
 
 float luminance(const float* rgb) { return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2]; }
-
-bool is_for(const ImageSpec& image, Side side) {
-  return image.eye == ImageEye::both || static_cast<std::size_t>(image.eye) == index_of(side);
-}
 
 /// The image of `side` whose exposure is on at a moment of the sweep, or the nearest to it in time.
 int image_at(const Schedule& schedule, Side side, double time_s) {
@@ -33,24 +30,14 @@ int image_at(const Schedule& schedule, Side side, double time_s) {
 
 }  // namespace
 
-RetinaInput retina_input(const CompiledSlices& compiled, const CompileSettings& settings, const FrameImages& images,
-                         Side side, const EyeWish& wish) {
-  RetinaInput input;
-  input.stage = compiled.stage.get();
-  input.projector = settings.projector;
-  input.channels = settings.channels;
-  input.bits = settings.bits;
-  input.gamma = settings.gamma;
-  input.lens_to_pupil_m = settings.lens_to_pupil_m;
-  input.lens_aperture_m = compiled.project->glasses.lens_aperture_mm / 1000.0;
-  const bool one = wish.sweep_time_s && !wish.conventional;
-  const int only =
-      one ? image_at(make_schedule(*compiled.project, settings.images).schedule, side, *wish.sweep_time_s) : -1;
-  for (std::size_t i = 0; i < settings.images.size(); ++i) {
-    if (!is_for(settings.images[i], side) || (one && static_cast<int>(i) != only)) continue;
-    input.slices.push_back({images.image(i), settings.images[i].power_d});
+RetinaInput retina_input(const CompiledSlices& compiled, const Schedule& schedule, Side side, const EyeWish& wish) {
+  Schedule shown = schedule;
+  if (wish.sweep_time_s) {
+    const int only = image_at(schedule, side, *wish.sweep_time_s);
+    std::erase_if(shown.slots, [&](const Slot& slot) { return slot.image != only || slot.eye != side; });
   }
-  return input;
+  return seen_frame(*compiled.stage, compiled.settings, compiled.images, shown, worn_glasses(compiled.project->glasses),
+                    side);
 }
 
 RetinaView retina_view(const EyeWish& wish, Side side) {
@@ -63,6 +50,33 @@ RetinaView retina_view(const EyeWish& wish, Side side) {
   view.fov_deg = wish.fov_deg;
   view.head_offset_m = wish.head_offset_m;
   return view;
+}
+
+RetinaInput EyePainter::conventional_input(const CompiledSlices& compiled, Side side) const {
+  const CompileSettings settings =
+      SliceMaker::settings_of(*compiled.project, SliceMaker::Variant::conventional, compiled.divisor);
+  // The lens rests, the shutters are open while their eye's image is on.
+  RetinaInput input =
+      seen_frame(*compiled.stage, settings, conventional_.images, {}, worn_glasses(compiled.project->glasses), side);
+  for (std::size_t i = 0; i < settings.images.size(); ++i) {
+    const ImageEye eye = settings.images[i].eye;
+    const bool own = eye == ImageEye::both || static_cast<std::size_t>(eye) == index_of(side);
+    if (own) input.exposures.push_back({conventional_.images.image(i), {{0.0, 1.0}}, true});
+  }
+  return input;
+}
+
+const Schedule& EyePainter::schedule_of(const CompiledSlices& compiled) {
+  if (scheduled_ != compiled.project) {
+    scheduled_ = compiled.project;
+    schedule_ = make_schedule(*compiled.project, compiled.settings.images).schedule;
+  }
+  return schedule_;
+}
+
+RetinaInput EyePainter::input_for(const CompiledSlices& compiled, const EyeWish& wish, Side side) {
+  if (wish.conventional) return conventional_input(compiled, side);
+  return retina_input(compiled, schedule_of(compiled), side, wish);
 }
 
 Status EyePainter::make_conventional(const CompiledSlices& compiled, SliceMaker& maker, std::stop_token stop) {
@@ -81,20 +95,15 @@ Status EyePainter::make_conventional(const CompiledSlices& compiled, SliceMaker&
 
 Result<EyePicture> EyePainter::paint(const CompiledSlices& compiled, const EyeWish& wish, SliceMaker& maker,
                                      std::stop_token stop) {
-  CompileSettings settings = compiled.settings;
-  const FrameImages* images = &compiled.images;
   if (wish.conventional) {
     if (Status made = make_conventional(compiled, maker, stop); !made) return made.fault();
-    settings = SliceMaker::settings_of(*compiled.project, SliceMaker::Variant::conventional, compiled.divisor);
-    images = &conventional_.images;
   }
   EyePicture picture{compiled.revision, compiled.divisor, wish.width_px, wish.height_px, wish.focus_d, {}};
   picture.rgb.assign(static_cast<std::size_t>(wish.width_px) * static_cast<std::size_t>(wish.height_px) * 3, 0);
   const bool both = wish.left && wish.right;
   for (const Side side : both_sides) {
     if (!(side == Side::left ? wish.left : wish.right)) continue;
-    const auto seen = retinas_[index_of(side)].view(retina_input(compiled, settings, *images, side, wish),
-                                                    retina_view(wish, side), stop);
+    const auto seen = retinas_[index_of(side)].view(input_for(compiled, wish, side), retina_view(wish, side), stop);
     if (!seen) return seen.fault();
     for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
       const float* light = &seen->rgb[i];
@@ -114,8 +123,8 @@ Result<std::optional<double>> EyePainter::focus_at(const CompiledSlices& compile
   const Side side = wish.left ? Side::left : Side::right;
   const RetinaView view = retina_view(wish, side);
   const glm::dvec2 look = look_of_pixel(view, at * glm::dvec2(view.width_px, view.height_px));
-  const auto sight = retinas_[index_of(side)].look_at(
-      retina_input(compiled, compiled.settings, compiled.images, side, wish), view, look);
+  const auto sight =
+      retinas_[index_of(side)].look_at(retina_input(compiled, schedule_of(compiled), side, wish), view, look);
   if (!sight) return sight.fault();
   if (!*sight) return std::optional<double>{};
   return std::optional<double>{(*sight)->vergence_d};

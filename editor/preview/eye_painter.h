@@ -27,12 +27,17 @@ class EyePainter {
   int conventional_frame_ = -1;
   int conventional_divisor_ = 0;
 
+  std::shared_ptr<const Project> scheduled_;  ///< whose schedule is kept
+  Schedule schedule_;
+
+  RetinaInput input_for(const CompiledSlices& compiled, const EyeWish& wish, Side side);
+  RetinaInput conventional_input(const CompiledSlices& compiled, Side side) const;
+  const Schedule& schedule_of(const CompiledSlices& compiled);
   Status make_conventional(const CompiledSlices& compiled, SliceMaker& maker, std::stop_token stop);
 };
 
-/// What `side` is shown: its own exposures and the light, or only the one that is on at `wish.sweep_time_s`.
-RetinaInput retina_input(const CompiledSlices& compiled, const CompileSettings& settings, const FrameImages& images,
-                         Side side, const EyeWish& wish);
+/// What reaches `side`: all exposures of the period, or only its own that is on at `wish.sweep_time_s`.
+RetinaInput retina_input(const CompiledSlices& compiled, const Schedule& schedule, Side side, const EyeWish& wish);
 
 RetinaView retina_view(const EyeWish& wish, Side side);
 

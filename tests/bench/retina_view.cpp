@@ -22,6 +22,13 @@ double median_ms(int rounds, const std::function<void(int)>& once) {
   return times_ms[times_ms.size() / 2];
 }
 
+/// An exposure over which the power changes by 0.2 D, as half a millisecond of a 3 D sweep does at its steepest.
+std::vector<PowerShare> smeared(double power_d) {
+  std::vector<PowerShare> powers;
+  for (int i = 0; i < 32; ++i) powers.push_back({power_d + 0.2 * ((i + 0.5) / 32.0 - 0.5), 1.0 / 32.0});
+  return powers;
+}
+
 /// The left eye's slices and, as the costliest thing that can be added, light on the whole surface.
 RetinaInput input_of(const BenchScene& scene, const CompiledFrame& frame, const std::vector<std::uint8_t>& light) {
   RetinaInput input;
@@ -29,9 +36,9 @@ RetinaInput input_of(const BenchScene& scene, const CompiledFrame& frame, const 
   input.projector = scene.settings.projector;
   for (std::size_t i = 0; i < scene.settings.images.size(); ++i) {
     const ImageSpec& spec = scene.settings.images[i];
-    if (spec.eye == ImageEye::left) input.slices.push_back({frame.images.image(i), spec.power_d});
+    if (spec.eye == ImageEye::left) input.exposures.push_back({frame.images.image(i), smeared(spec.power_d)});
   }
-  input.slices.push_back({light, 0.0});
+  input.exposures.push_back({light, smeared(0.0)});
   return input;
 }
 

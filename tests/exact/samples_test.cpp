@@ -21,6 +21,7 @@
 #include "tests/exact/compare.h"
 #include "tests/exact/forward_trace.h"
 #include "tests/exact/room_of.h"
+#include "tests/exact/sample_projects.h"
 
 // The ready projects, each held against the reference, and its edges, read from a show file, against the light.
 
@@ -30,37 +31,6 @@ using namespace focalstage::exact;
 namespace {
 
 constexpr double tolerance_px = 0.05;
-
-/// Every project that comes with the program, by name.
-std::vector<std::filesystem::path> projects() {
-  std::vector<std::filesystem::path> folders;
-  for (const auto& entry : std::filesystem::directory_iterator(FOCALSTAGE_SOURCE_DIR "/projects")) {
-    if (entry.is_directory()) folders.push_back(entry.path());
-  }
-  std::sort(folders.begin(), folders.end());
-  return folders;
-}
-
-/// A project with its files, as it lies in its folder.
-struct Opened {
-  Project project;
-  std::string text;
-  LoadedAssets loaded;
-};
-
-Opened opened(const std::filesystem::path& folder) {
-  Result<LoadedProject> project = load_project(folder);
-  REQUIRE(project);
-  Result<LoadedAssets> loaded = load_assets(project->project, folder);
-  REQUIRE(loaded);
-  return {project->project, project->text, *std::move(loaded)};
-}
-
-Stage staged(const Project& project, const Assets& assets, int frame) {
-  Result<Stage> up = stage(project, assets, frame / project.frames.rate_hz);
-  REQUIRE(up);
-  return *std::move(up);
-}
 
 /// The variant whose edges are looked for: all objects carry a fine checker, nothing else is lit, every pixel is one
 /// sample.

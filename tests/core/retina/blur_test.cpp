@@ -26,7 +26,7 @@ struct Point {
   Point() {
     codes[32 * 64 + 32] = 255;
     input = input_of(stage, projector);
-    input.slices = {{codes, 1.0}};
+    input.exposures = {shown(codes, 1.0)};
     view.pupil_m = 0.006;
     view.width_px = view.height_px = 320;
     // The spot lies 31.5 mm to the right of the left eye and 515 mm away; through +1 D the look at it is stretched by

@@ -33,6 +33,9 @@ inline ProjectorModel projector_at(const glm::dvec3& from_m, double focal_px, in
   return projector;
 }
 
+/// A whole exposure at one power.
+inline RetinaExposure shown(std::span<const std::uint8_t> codes, double power_d) { return {codes, {{power_d, 1.0}}}; }
+
 inline RetinaInput input_of(const Stage& stage, const ProjectorModel& projector) {
   RetinaInput input;
   input.stage = &stage;
@@ -52,7 +55,7 @@ inline RetinaInput input_of(const Stage& stage, const CompileSettings& settings,
   for (std::size_t i = 0; i < settings.images.size(); ++i) {
     const ImageSpec& spec = settings.images[i];
     if (spec.eye == own || spec.eye == ImageEye::both) {
-      input.slices.push_back({frame.images.image(i), spec.power_d});
+      input.exposures.push_back(shown(frame.images.image(i), spec.power_d));
     }
   }
   return input;

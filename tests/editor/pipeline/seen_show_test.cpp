@@ -76,7 +76,15 @@ TEST_CASE("an eye gets its own exposures, at the lens' power, and the light that
     REQUIRE(seen);
     const RetinaInput input = seen->input();
     std::vector<double> powers_d;
-    for (const RetinaSlice& slice : input.slices) powers_d.push_back(slice.power_d);
+    for (const RetinaExposure& exposure : input.exposures) {
+      double share = 0.0, power_d = 0.0;
+      for (const PowerShare& part : exposure.powers) {
+        share += part.share;
+        power_d += part.share * part.power_d;
+      }
+      CHECK(share == doctest::Approx(1.0));  // open throughout
+      powers_d.push_back(power_d);
+    }
     std::sort(powers_d.begin(), powers_d.end());
     REQUIRE(powers_d.size() == 3);
     CHECK(powers_d[0] == doctest::Approx(-0.5));

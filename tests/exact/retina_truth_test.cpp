@@ -1,0 +1,140 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/compile/compile.h"
+#include "core/percept/seen_frame.h"
+#include "core/reference/seen.h"
+#include "core/retina/retina.h"
+#include "core/stage/stage.h"
+#include "io/assets/assets.h"
+#include "io/project/project_file.h"
+#include "tests/exact/sample_projects.h"
+
+// The fast retina, which cuts exposures into powers and spreads light in layers, against rays that know nothing but the
+// lens: every sample, both eyes, through the whole range of focus.
+
+using namespace focalstage;
+using namespace focalstage::exact;
+
+namespace {
+
+/// One frame of a sample as it would be shown.
+struct Shown {
+  Stage stage;
+  CompileSettings settings;
+  CompiledFrame frame;
+  Schedule schedule;
+  WornGlasses glasses;
+
+  RetinaInput input(Side side) const { return seen_frame(stage, settings, frame.images, schedule, glasses, side); }
+};
+
+Shown shown_frame(const Opened& opened, int frame) {
+  Shown shown;
+  shown.stage = staged(opened.project, opened.loaded.assets, frame);
+  shown.settings = compile_settings(opened.project);
+  auto compiled = Compiler(shown.settings).frame(shown.stage);
+  REQUIRE(compiled);
+  shown.frame = *std::move(compiled);
+  shown.schedule = make_schedule(opened.project, shown.settings.images).schedule;
+  shown.glasses = worn_glasses(opened.project.glasses);
+  return shown;
+}
+
+struct Apart {
+  double rms = 0.0;  ///< of the peak
+  double sum = 0.0;  ///< of the light, relative
+};
+
+Apart apart(const RetinaImage& fast, const RetinaImage& exact) {
+  double squares = 0.0, peak = 0.0, fast_sum = 0.0, exact_sum = 0.0;
+  for (std::size_t i = 0; i < exact.rgb.size(); ++i) {
+    const double off = double{fast.rgb[i]} - exact.rgb[i];
+    squares += off * off;
+    peak = std::max(peak, double{exact.rgb[i]});
+    fast_sum += fast.rgb[i];
+    exact_sum += exact.rgb[i];
+  }
+  return {std::sqrt(squares / static_cast<double>(exact.rgb.size())) / peak, fast_sum / exact_sum - 1.0};
+}
+
+}  // namespace
+
+TEST_CASE("the fast retina is within 2 % of the rays on every sample") {
+  for (const std::filesystem::path& folder : projects()) {
+    const Opened sample = opened(folder);
+    const Shown shown = shown_frame(sample, 0);
+    for (const Side side : both_sides) {
+      const RetinaInput input = shown.input(side);
+      Retina retina;
+      for (const double focus_d : side == Side::left ? std::vector<double>{0.5, 2.0, 3.5} : std::vector<double>{1.5}) {
+        RetinaView view;
+        view.eye = side;
+        view.width_px = 200;
+        view.height_px = 150;
+        view.fov_deg = 45.0;
+        view.focus_d = focus_d;
+        const auto fast = retina.view(input, view);
+        const auto exact = see_by_rays(input, view, {96});
+        REQUIRE(fast);
+        REQUIRE(exact);
+        const Apart off = apart(*fast, *exact);
+        INFO(folder.filename().string() << ", eye " << index_of(side) << ", focus " << focus_d << " D");
+        MESSAGE(folder.filename().string()
+                << ", eye " << index_of(side) << ", focus " << focus_d << " D: RMS " << 100.0 * off.rms
+                << " % of the peak, light off by " << 100.0 * off.sum << " %");
+        CHECK(off.rms <= 0.02);
+        // Depth matching's only light is a pointer whose sides are thinner than a pixel.
+        CHECK(std::abs(off.sum) <= (sample.project.name == "Depth matching" ? 0.02 : 0.003));
+      }
+    }
+  }
+}
+
+namespace {
+
+/// A project of one bright board before the left lens' shutter that is slow to close.
+Project slow_shutters() {
+  Project project = opened(FOCALSTAGE_SOURCE_DIR "/projects/three-rabbits").project;
+  project.glasses.shutter_close_ms = 3.0;
+  return project;
+}
+
+double leaked_share(const RetinaInput& input, Side side) {
+  RetinaView view;
+  view.eye = side;
+  view.width_px = 100;
+  view.height_px = 75;
+  RetinaInput others = input;
+  std::erase_if(others.exposures, [](const RetinaExposure& exposure) { return exposure.own; });
+  const auto sum = [&](const RetinaInput& seen) {
+    const auto image = Retina().view(seen, view);
+    REQUIRE(image);
+    double all = 0.0;
+    for (const float light : image->rgb) all += light;
+    return all;
+  };
+  return sum(others) / sum(input);
+}
+
+}  // namespace
+
+TEST_CASE("shutters twice as slow as the show believes let the other eye's light in") {
+  Opened sample = opened(FOCALSTAGE_SOURCE_DIR "/projects/three-rabbits");
+  sample.project = slow_shutters();
+  Shown shown = shown_frame(sample, 0);
+  for (const Side side : both_sides) CHECK(leaked_share(shown.input(side), side) == 0.0);
+  shown.glasses.shutter.open_s *= 2.0;
+  shown.glasses.shutter.close_s *= 2.0;
+  for (const Side side : both_sides) {
+    const double leaked = leaked_share(shown.input(side), side);
+    MESSAGE("eye " << index_of(side) << ": " << 100.0 * leaked << " % of the light is the other eye's");
+    CHECK(leaked > 0.01);
+    CHECK(leaked < 0.5);
+  }
+}
