@@ -2,9 +2,17 @@
 
 #include <utility>
 
+#include "core/schedule/slots.h"
+
 namespace focalstage {
 
 WornGlasses worn_glasses(const Glasses& glasses) { return {shutter_speed(glasses), glasses.lens_aperture_mm / 1000.0}; }
+
+ProjectorFlux flux_of(const Project& project) {
+  if (project.projectors.empty()) return {};
+  const Projector& projector = project.projectors.front();
+  return {projector.lumens.value_or(0.0), exposure_s(projector) * project.sweep.frequency_hz};
+}
 
 RetinaInput seen_frame(const Stage& stage, const CompileSettings& settings, const FrameImages& images,
                        const Schedule& schedule, const WornGlasses& glasses, Side side) {

@@ -2,6 +2,7 @@
 
 #include "core/base/sides.h"
 #include "core/compile/frame.h"
+#include "core/percept/things.h"
 #include "core/retina/retina.h"
 #include "core/schedule/schedule.h"
 #include "core/schedule/seen.h"
@@ -20,6 +21,9 @@ struct WornGlasses {
 };
 
 WornGlasses worn_glasses(const Glasses& glasses);
+
+/// Of the project's first projector.
+ProjectorFlux flux_of(const Project& project);
 
 /// All that reaches the eye of `side` in one period: every exposure through the power of its lens and what its shutter
 /// lets through meanwhile, the other eye's too where it leaks. Stage and images must outlive the result.

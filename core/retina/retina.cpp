@@ -220,6 +220,7 @@ struct Retina::State {
   explicit State(int threads) : arena(threads > 0 ? threads : tbb::task_arena::automatic) {}
 
   Result<RetinaImage> view(const RetinaInput& input, const RetinaView& view, const std::stop_token& stop);
+  Result<DrivenFocus> driven_focus(const RetinaInput& input, const RetinaView& view, const std::stop_token& stop);
   Result<std::optional<RetinaSight>> look_at(const RetinaInput& input, const RetinaView& view, const glm::dvec2& look,
                                              const std::stop_token& stop);
 
@@ -257,6 +258,70 @@ Result<RetinaImage> Retina::State::view(const RetinaInput& input, const RetinaVi
   return image_of(planes, grid, margin, view, channels);
 }
 
+namespace {
+
+/// Sums over the exposures of one pixel.
+struct FocusSum {
+  double luminance = 0.0;
+  double vergence_d = 0.0;
+  double square_d2 = 0.0;
+
+  void add(double light, double own_d) {
+    luminance += light;
+    vergence_d += light * own_d;
+    square_d2 += light * own_d * own_d;
+  }
+};
+
+double luminance_of(const ExposureLight& light, const SliceSpot& spot, int channels) {
+  if (channels == 1) return LightSampler<1>(light.whole.lights.front()).at(spot.x_px, spot.y_px)[0];
+  const std::array<float, 3> rgb = LightSampler<3>(light.whole.lights.front()).at(spot.x_px, spot.y_px);
+  return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+}
+
+void put(const FocusSum& sum, std::size_t pixel, DrivenFocus& focus) {
+  focus.luminance[pixel] = static_cast<float>(sum.luminance);
+  if (!(sum.luminance > 0.0)) return;
+  const double mean_d = sum.vergence_d / sum.luminance;
+  focus.vergence_d[pixel] = static_cast<float>(mean_d);
+  focus.spread_d[pixel] = static_cast<float>(std::sqrt(std::max(0.0, sum.square_d2 / sum.luminance - mean_d * mean_d)));
+}
+
+}  // namespace
+
+Result<DrivenFocus> Retina::State::driven_focus(const RetinaInput& input, const RetinaView& view,
+                                                const std::stop_token& stop) {
+  const std::vector<Pass> passes = passes_of(input, view);
+  const std::vector<const SliceMap*> seen = maps.of(input, view, margin_px, powers_of(passes), stop);
+  if (stop.stop_requested()) return cancelled;
+  const std::vector<ExposureLight> lights = lights_of(input, passes, seen, stop);
+  if (stop.stop_requested()) return cancelled;
+  const LensRim rim(input, view);
+  const auto pixels = static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px);
+  DrivenFocus focus{view.width_px, view.height_px, std::vector<float>(pixels, 0.0f),
+                    std::vector<float>(pixels, SliceSpot::none), std::vector<float>(pixels, SliceSpot::none)};
+  const LookGrid grid = grid_of(view, margin_px);
+  tbb::parallel_for(0, view.height_px, [&](int y) {
+    for (int x = 0; x < view.width_px && !stop.stop_requested(); ++x) {
+      FocusSum sum;
+      const int column = x + margin_px, row = y + margin_px;
+      for (std::size_t i = 0; i < passes.size(); ++i) {
+        const ExposureLight& light = lights[passes[i].exposure];
+        const SliceSpot& spot = seen[i]->spots[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width_px) +
+                                               static_cast<std::size_t>(column)];
+        if (!light.any() || !spot.lit()) continue;
+        const double open = double{passes[i].share} * rim.open_share(grid.look(column, row), spot.vergence_d);
+        sum.add(open * luminance_of(light, spot, input.channels),
+                vergence_at_lens_d(spot.vergence_d, input.lens_to_pupil_m));
+      }
+      put(sum, static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width_px) + static_cast<std::size_t>(x),
+          focus);
+    }
+  });
+  if (stop.stop_requested()) return cancelled;
+  return focus;
+}
+
 Result<std::optional<RetinaSight>> Retina::State::look_at(const RetinaInput& input, const RetinaView& view,
                                                           const glm::dvec2& look, const std::stop_token& stop) {
   const glm::dvec2 pixel = pixel_of_look(view, look);
@@ -286,6 +351,11 @@ Retina& Retina::operator=(Retina&&) noexcept = default;
 Result<RetinaImage> Retina::view(const RetinaInput& input, const RetinaView& view, std::stop_token stop) {
   if (Status fits = check_retina(input, view); !fits) return fits.fault();
   return state_->arena.execute([&] { return state_->view(input, view, stop); });
+}
+
+Result<DrivenFocus> Retina::driven_focus(const RetinaInput& input, const RetinaView& view, std::stop_token stop) {
+  if (Status fits = check_retina(input, view); !fits) return fits.fault();
+  return state_->arena.execute([&] { return state_->driven_focus(input, view, stop); });
 }
 
 Result<std::optional<RetinaSight>> Retina::look_at(const RetinaInput& input, const RetinaView& view,

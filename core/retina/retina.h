@@ -93,6 +93,17 @@ struct RetinaSight {
   bool lit = false;  ///< no light: vergence and spot are the bare surface's, seen through no power
 };
 
+/// The accommodation that a show asks for, pixel by pixel: where the pictures lie whose light is seen there, before any
+/// blur. As a mean over the exposures by their light: depth filtering shares light out so that the sharpest picture
+/// lies there (MacKenzie et al. 2010). Rows from the top; vergences at the lens centre.
+struct DrivenFocus {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<float> luminance;   ///< linear light; 0: dark
+  std::vector<float> vergence_d;  ///< not a number where dark
+  std::vector<float> spread_d;    ///< the root mean square of the exposures' vergences about that
+};
+
 /// What keeps an input or a view from meaning anything: a Fault "retina.input".
 Status check_retina(const RetinaInput& input, const RetinaView& view);
 
@@ -108,6 +119,9 @@ class Retina {
   /// Faults: "retina.input" (sizes that don't fit, numbers that mean nothing), "retina.cancelled" within milliseconds
   /// of a stop request.
   Result<RetinaImage> view(const RetinaInput& input, const RetinaView& view, std::stop_token stop = {});
+
+  /// Faults as above.
+  Result<DrivenFocus> driven_focus(const RetinaInput& input, const RetinaView& view, std::stop_token stop = {});
 
   /// What is seen along `look`: for "focus here". None outside the picture, or where no surface is seen.
   Result<std::optional<RetinaSight>> look_at(const RetinaInput& input, const RetinaView& view, const glm::dvec2& look,

@@ -4,10 +4,14 @@
 #include <cmath>
 #include <memory>
 
+#include "core/reference/seen.h"
 #include "editor/cli/command_list.h"
 #include "editor/cli/interrupt.h"
 #include "editor/cli/output.h"
+#include "editor/cli/retina_output.h"
+#include "editor/pipeline/retina_report.h"
 #include "editor/pipeline/seen_show.h"
+#include "editor/pipeline/source.h"
 #include "io/image/png.h"
 
 namespace focalstage {
@@ -22,6 +26,12 @@ struct Options {
   double pupil_mm = 4.0;
   double fov_deg = 50.0;
   int frame = 0;
+  std::string conflict;
+  int rays = 0;
+  double shutter_open_ms = -1.0;
+  double shutter_close_ms = -1.0;
+  bool diffraction = false;
+  bool chromatic = false;
   bool json = false;
 };
 
@@ -47,6 +57,8 @@ Result<RetinaView> view_of(const Options& options) {
   view.focus_d = 1.0 / options.focus_m;
   view.pupil_m = options.pupil_mm / 1000.0;
   view.fov_deg = options.fov_deg;
+  view.diffraction = options.diffraction;
+  view.chromatic = options.chromatic;
   if (const Status size = read_size(options.size, view); !size) return size.fault();
   return view;
 }
@@ -60,31 +72,29 @@ std::vector<std::uint16_t> levels_of(const RetinaImage& image, int channels) {
   return levels;
 }
 
-void print_report(const Options& options, const RetinaView& view, const RetinaImage& image, std::size_t exposures) {
-  double sum = 0.0, most = 0.0;
-  for (const float light : image.rgb) {
-    sum += light;
-    most = std::max(most, double{light});
-  }
-  Value object;
-  object.set("picture", options.picture);
-  object.set("show", options.show);
-  object.set("frame", options.frame);
-  object.set("eye", options.eye);
-  object.set("focus_m", options.focus_m);
-  object.set("focus_d", view.focus_d);
-  object.set("pupil_mm", options.pupil_mm);
-  object.set("fov_deg", options.fov_deg);
-  object.set("size_px", Value::Array{view.width_px, view.height_px});
-  object.set("exposures", static_cast<double>(exposures));
-  object.set("mean_light", sum / static_cast<double>(image.rgb.size()));
-  object.set("most_light", most);
-  print_json(object);
+/// The show's glasses, or slower or faster ones where the options say so.
+Result<std::optional<WornGlasses>> worn(const Options& options, const ShowReader& show) {
+  if (options.shutter_open_ms < 0.0 && options.shutter_close_ms < 0.0) return std::optional<WornGlasses>();
+  const auto source = project_in(show, options.show);
+  if (!source) return source.fault();
+  WornGlasses glasses = worn_glasses(source->project.glasses);
+  if (options.shutter_open_ms >= 0.0) glasses.shutter.open_s = options.shutter_open_ms / 1000.0;
+  if (options.shutter_close_ms >= 0.0) glasses.shutter.close_s = options.shutter_close_ms / 1000.0;
+  return std::optional<WornGlasses>(glasses);
 }
 
 ExitStatus usage(const Fault& fault) {
   report(fault);
   return ExitStatus::usage;
+}
+
+Status write_pictures(const Options& options, const RetinaInput& input, const RetinaView& view,
+                      const RetinaReport& made) {
+  const int channels = view.chromatic ? 3 : input.channels;
+  Status written =
+      write_png16(options.picture, view.width_px, view.height_px, channels, levels_of(made.picture, channels));
+  if (!written || options.conflict.empty()) return written;
+  return write_png(options.conflict, view.width_px, view.height_px, 3, conflict_colours(made.conflict_d));
 }
 
 ExitStatus run(const Options& options) {
@@ -98,24 +108,31 @@ ExitStatus run(const Options& options) {
     return usage({"frames.range", "--frame " + std::to_string(options.frame), "the show has no such frame",
                   "name one of 0 to " + std::to_string(frames - 1)});
   }
-  const auto seen = SeenShow::of(*show, options.show, options.frame, view->eye);
+  const auto glasses = worn(options, *show);
+  if (!glasses) return report(glasses.fault());
+  const auto seen = SeenShow::of(*show, options.show, options.frame, view->eye, *glasses);
   if (!seen) return report(seen.fault());
   const RetinaInput input = seen->input();
-  const auto image = Retina().view(input, *view, interrupt.token());
-  if (!image) {
-    const ExitStatus status = report(image.fault());
+  Retina retina;
+  auto made = report_on(retina, input, *view, seen->flux(), interrupt.token());
+  if (made && options.rays > 0) {
+    auto exact = see_by_rays(input, *view, {options.rays}, interrupt.token());
+    if (!exact)
+      made = exact.fault();
+    else
+      made->picture = *std::move(exact);
+  }
+  if (!made) {
+    const ExitStatus status = report(made.fault());
     interrupt.end_if_asked();
     return status;
   }
-  const int channels = input.channels;
-  const Status written =
-      write_png16(options.picture, view->width_px, view->height_px, channels, levels_of(*image, channels));
-  if (!written) return report(written.fault());
+  if (Status written = write_pictures(options, input, *view, *made); !written) return report(written.fault());
+  const RetinaRun what{options.show, options.picture, options.frame, options.focus_m, options.pupil_mm};
   if (options.json) {
-    print_report(options, *view, *image, input.exposures.size());
+    print_json(retina_value(what, *view, input, *made));
   } else {
-    std::printf("%s: the %s eye focused at %s m (%s D), %zu exposures\n", options.picture.c_str(), options.eye.c_str(),
-                short_number(options.focus_m).c_str(), short_number(view->focus_d).c_str(), input.exposures.size());
+    std::fputs(retina_text(what, *view, input, *made).c_str(), stdout);
   }
   return ExitStatus::done;
 }
@@ -146,6 +163,21 @@ Command::Run declare_retina(CLI::App& app) {
   app.add_option("-o,--output", options->picture, "the picture to write: 16-bit PNG in linear light")
       ->required()
       ->type_name("PNG");
+  app.add_option("--conflict", options->conflict,
+                 "also write where vergence and accommodation part: green within 0.5 D, red beyond, blue the other way")
+      ->type_name("PNG");
+  app.add_option("--rays", options->rays,
+                 "follow so many rays per pixel and exposure instead of the fast way: slow, exact")
+      ->type_name("N")
+      ->check(CLI::Range(1, 65536).name(""));
+  app.add_option("--shutter-open-ms", options->shutter_open_ms, "glasses that open slower or faster than the show's")
+      ->type_name("MS")
+      ->check(CLI::Range(0.0, 1000.0).name(""));
+  app.add_option("--shutter-close-ms", options->shutter_close_ms, "glasses that close slower or faster than the show's")
+      ->type_name("MS")
+      ->check(CLI::Range(0.0, 1000.0).name(""));
+  app.add_flag("--diffraction", options->diffraction, "blur by the pupil's edge");
+  app.add_flag("--chromatic", options->chromatic, "the eye's own colour error: red, green and blue focus apart");
   app.add_flag("--json", options->json, "print what was seen as one JSON object");
   return [options] { return run(*options); };
 }

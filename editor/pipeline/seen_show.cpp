@@ -41,6 +41,7 @@ Result<SeenShow> SeenShow::of(const ShowReader& show, const std::string& name, i
   seen.images_ = *std::move(images);
   seen.schedule_ = header.schedule;
   seen.glasses_ = glasses ? *glasses : worn_glasses(source->project.glasses);
+  seen.flux_ = flux_of(source->project);
   seen.eye_ = eye;
   return seen;
 }

@@ -7,6 +7,7 @@
 #include "core/base/sides.h"
 #include "core/compile/frame.h"
 #include "core/percept/seen_frame.h"
+#include "core/percept/things.h"
 #include "core/stage/stage.h"
 #include "io/show/reader.h"
 
@@ -24,12 +25,15 @@ class SeenShow {
   /// Valid while this stays where it is.
   RetinaInput input() const;
 
+  const ProjectorFlux& flux() const { return flux_; }
+
  private:
   Stage stage_;
   CompileSettings settings_;
   FrameImages images_;
   Schedule schedule_;
   WornGlasses glasses_;
+  ProjectorFlux flux_;
   Side eye_ = Side::left;
 };
 

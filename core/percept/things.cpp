@@ -1,0 +1,100 @@
+#include "core/percept/things.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <tbb/parallel_for.h>
+#include <glm/geometric.hpp>
+
+#include "core/optics/eye.h"
+#include "core/retina/slice_maps.h"
+#include "core/retina/surface_raster.h"
+
+namespace focalstage {
+namespace {
+
+constexpr double nearest_m = 1e-3;  ///< to the lens centre, as in the compiler
+
+/// One kind of things as the eye sees them through no power: whose each face is, and the nearest in each pixel.
+struct Seen {
+  SurfaceMesh mesh;
+  std::vector<std::int32_t> owner;  ///< of each face, in the map's things
+  SurfaceRaster raster;
+};
+
+template <class Staged>
+void add_things(const std::vector<Staged>& staged, Thing::Kind kind, ThingMap& map, Seen& seen) {
+  for (const Staged& one : staged) {
+    const auto own = static_cast<std::int32_t>(map.things.size());
+    map.things.push_back({kind, one.name, one.index});
+    for (const Drawable& drawable : one.drawables) {
+      const auto first = static_cast<std::uint32_t>(seen.mesh.points_m.size());
+      for (const glm::dvec3& position_m : drawable.mesh->positions_m)
+        seen.mesh.points_m.emplace_back(drawable.world_from_mesh * glm::dvec4(position_m, 1.0));
+      for (const glm::uvec3& triangle : drawable.mesh->triangles) {
+        seen.mesh.faces.push_back(triangle + first);
+        seen.owner.push_back(own);
+      }
+    }
+  }
+}
+
+/// Candela per square metre and light of a face's point.
+double brightness(const ProjectorModel& projector, const ProjectorFlux& flux, const SurfaceMesh& mesh,
+                  std::uint32_t face, const glm::dvec3& world_m) {
+  const Rigid projector_from_world = projector.world_from_projector.inverse();
+  const glm::uvec3& corners = mesh.faces[face];
+  const glm::dvec3 a = mesh.points_m[corners.x];
+  const glm::dvec3 normal = glm::normalize(glm::cross(mesh.points_m[corners.y] - a, mesh.points_m[corners.z] - a));
+  const glm::dvec3 point_m = projector_from_world.point(world_m);
+  if (!(point_m.z < 0.0)) return 0.0;
+  const double facing_m = std::abs(glm::dot(projector_from_world.direction(normal), point_m));
+  const double pixels_per_m2 =
+      projector.focal_px.x * projector.focal_px.y * facing_m / (-point_m.z * point_m.z * point_m.z);
+  const double lumens_per_pixel = flux.lumens / (double{1} * projector.width_px * projector.height_px);
+  return lumens_per_pixel * flux.exposure_share * pixels_per_m2 / std::numbers::pi;
+}
+
+}  // namespace
+
+ThingMap things_seen(const RetinaInput& input, const RetinaView& view, const ProjectorFlux& flux,
+                     const std::stop_token& stop) {
+  const auto pixels = static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px);
+  ThingMap map;
+  map.width_px = view.width_px;
+  map.height_px = view.height_px;
+  map.thing.assign(pixels, ThingMap::nothing);
+  map.vergence_d.assign(pixels, std::numeric_limits<float>::quiet_NaN());
+  map.candela_per_light.assign(pixels, 0.0f);
+  const Eye eye = eye_of(input, view);
+  const LookGrid grid = grid_of(view, 0);
+  Seen objects, surfaces;
+  add_things(input.stage->objects, Thing::Kind::object, map, objects);
+  add_things(input.stage->surfaces, Thing::Kind::surface, map, surfaces);
+  for (Seen* seen : {&objects, &surfaces}) {
+    seen->raster = raster_surfaces(seen->mesh, eye.eye_from_world, grid, eye.lens_to_pupil_m + nearest_m, stop);
+    if (stop.stop_requested()) return map;
+  }
+  const Rigid world_from_eye = eye.eye_from_world.inverse();
+  tbb::parallel_for(0, view.height_px, [&](int row) {
+    for (int column = 0; column < view.width_px; ++column) {
+      const std::size_t pixel =
+          static_cast<std::size_t>(row) * static_cast<std::size_t>(view.width_px) + static_cast<std::size_t>(column);
+      const glm::dvec2 look = grid.look(column, row);
+      for (const Seen* seen : {&surfaces, &objects}) {  // objects are drawn over whatever stands before them
+        const std::uint32_t face = seen->raster.at(column, row);
+        if (face == SurfaceRaster::nothing) continue;
+        const double depth_m = 1.0 / seen->raster.faces[face].inverse_depth(look);
+        map.thing[pixel] = seen->owner[face];
+        map.vergence_d[pixel] = static_cast<float>(1.0 / (depth_m - eye.lens_to_pupil_m));
+        if (seen != &surfaces || !(flux.lumens > 0.0)) continue;
+        map.candela_per_light[pixel] = static_cast<float>(brightness(
+            input.projector, flux, seen->mesh, face, world_from_eye.point(glm::dvec3(look, -1.0) * depth_m)));
+      }
+    }
+  });
+  return map;
+}
+
+}  // namespace focalstage

@@ -1,0 +1,111 @@
+#include "editor/cli/retina_output.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "editor/cli/output.h"
+
+namespace focalstage {
+namespace {
+
+constexpr double full_colour_d = 2.0;
+
+std::string kind_of(const Thing& thing) { return thing.kind == Thing::Kind::object ? "object" : "surface"; }
+
+/// Numbers that may not exist are null.
+Value number_or_null(double value) { return std::isfinite(value) ? Value(value) : Value(); }
+
+Value thing_value(const RetinaReport& report, std::size_t i) {
+  const Thing& thing = report.things.things[i];
+  const ThingLook& look = report.looks[i];
+  const ThingConflict& conflict = report.conflicts[i];
+  Value value;
+  value.set("name", thing.name);
+  value.set("kind", kind_of(thing));
+  value.set("pixels", look.pixels);
+  value.set("sharpness", number_or_null(look.pixels > 0 ? look.sharpness : std::nan("")));
+  value.set("light", look.light);
+  value.set("luminance_cd_m2", report.looks[i].candela_per_m2 > 0.0 ? Value(look.candela_per_m2) : Value());
+  value.set("blur_radius_arcmin", number_or_null(conflict.light > 0.0 ? look.blur_radius_arcmin : std::nan("")));
+  const bool lit = conflict.light > 0.0;
+  value.set("conflict_mean_d", number_or_null(lit ? conflict.mean_d : std::nan("")));
+  value.set("conflict_worst_d", number_or_null(lit ? conflict.worst_d : std::nan("")));
+  value.set("conflict_beyond_comfort", number_or_null(lit ? conflict.beyond_comfort : std::nan("")));
+  return value;
+}
+
+std::string or_dash(bool known, double value, int decimals) { return known ? number_text(value, decimals) : "-"; }
+
+}  // namespace
+
+Value retina_value(const RetinaRun& run, const RetinaView& view, const RetinaInput& input, const RetinaReport& report) {
+  double sum = 0.0, most = 0.0;
+  for (const float light : report.picture.rgb) {
+    sum += light;
+    most = std::max(most, double{light});
+  }
+  Value object;
+  object.set("picture", run.picture);
+  object.set("show", run.show);
+  object.set("frame", run.frame);
+  object.set("eye", view.eye == Side::left ? "left" : "right");
+  object.set("focus_m", run.focus_m);
+  object.set("focus_d", view.focus_d);
+  object.set("pupil_mm", run.pupil_mm);
+  object.set("fov_deg", view.fov_deg);
+  object.set("size_px", Value::Array{view.width_px, view.height_px});
+  object.set("exposures", static_cast<double>(input.exposures.size()));
+  object.set("mean_light", sum / static_cast<double>(report.picture.rgb.size()));
+  object.set("most_light", most);
+  object.set("leaked", report.leaked);
+  Value::Array things;
+  for (std::size_t i = 0; i < report.things.things.size(); ++i) things.push_back(thing_value(report, i));
+  object.set("things", std::move(things));
+  return object;
+}
+
+std::string retina_text(const RetinaRun& run, const RetinaView& view, const RetinaInput& input,
+                        const RetinaReport& report) {
+  std::string text = run.picture + ": the " + (view.eye == Side::left ? "left" : "right") + " eye focused at " +
+                     short_number(run.focus_m) + " m (" + short_number(view.focus_d) + " D), " +
+                     std::to_string(input.exposures.size()) + " exposures\n";
+  if (report.leaked > 0.0) {
+    text += number_text(100.0 * report.leaked, 1) +
+            " % of the light was meant for the other eye: a shutter moves while it is shown\n";
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < report.things.things.size(); ++i) {
+    const Thing& thing = report.things.things[i];
+    const ThingLook& look = report.looks[i];
+    const ThingConflict& conflict = report.conflicts[i];
+    const bool seen = look.pixels > 0, lit = conflict.light > 0.0;
+    rows.push_back({thing.name, kind_of(thing), std::to_string(look.pixels),
+                    or_dash(seen && std::isfinite(look.sharpness), look.sharpness, 2),
+                    or_dash(lit, look.blur_radius_arcmin, 1), or_dash(seen, look.light, 3),
+                    or_dash(look.candela_per_m2 > 0.0, look.candela_per_m2, 1), or_dash(lit, conflict.mean_d, 2)});
+  }
+  if (rows.empty()) return text + "Nothing stands on this stage.\n";
+  return text + table_text({{"thing"},
+                            {"kind"},
+                            {"pixels", true},
+                            {"sharpness", true},
+                            {"blur/arcmin", true},
+                            {"light", true},
+                            {"cd/m2", true},
+                            {"conflict/D", true}},
+                           rows);
+}
+
+std::vector<std::uint8_t> conflict_colours(const std::vector<float>& conflict_d) {
+  std::vector<std::uint8_t> rgb(3 * conflict_d.size(), 0);
+  for (std::size_t i = 0; i < conflict_d.size(); ++i) {
+    if (std::isnan(conflict_d[i])) continue;
+    const double size_d = std::abs(double{conflict_d[i]});
+    const auto strong = static_cast<std::uint8_t>(80.0 + 175.0 * std::min(1.0, size_d / full_colour_d));
+    const std::size_t channel = size_d <= comfort_d ? 1 : conflict_d[i] > 0.0f ? 0 : 2;
+    rgb[3 * i + channel] = channel == 1 ? 160 : strong;
+  }
+  return rgb;
+}
+
+}  // namespace focalstage

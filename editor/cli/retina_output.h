@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/retina/retina.h"
+#include "core/scene/value.h"
+#include "editor/pipeline/retina_report.h"
+
+namespace focalstage {
+
+/// What a run of `focalstage retina` was asked for, as far as its words repeat it.
+struct RetinaRun {
+  std::string show;
+  std::string picture;
+  int frame = 0;
+  double focus_m = 0.5;
+  double pupil_mm = 4.0;
+};
+
+/// The object that `--json` prints; docs/retina.md names its members.
+Value retina_value(const RetinaRun& run, const RetinaView& view, const RetinaInput& input, const RetinaReport& report);
+
+/// The same for people: a line, and a table of the things that are seen.
+std::string retina_text(const RetinaRun& run, const RetinaView& view, const RetinaInput& input,
+                        const RetinaReport& report);
+
+/// 8-bit RGB: green within the zone of comfort, red where the focus lies further away than the eyes converge, blue
+/// where it lies nearer; full colour at 2 D; black where there is no conflict to speak of.
+std::vector<std::uint8_t> conflict_colours(const std::vector<float>& conflict_d);
+
+}  // namespace focalstage
