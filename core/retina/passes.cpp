@@ -9,7 +9,7 @@
 namespace focalstage {
 namespace {
 
-constexpr double tolerance_px = 1.0 / 3.0;
+constexpr double tolerance_px = 0.5;
 constexpr std::size_t most_parts = 16;
 
 /// Of the powers with any share.

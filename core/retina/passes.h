@@ -14,7 +14,7 @@ struct Pass {
   float share = 1.0f;  ///< of the light of a whole exposure
 };
 
-/// The exposures cut into as few powers as keep every direction and every blur within a third of a pixel of the
+/// The exposures cut into as few powers as keep every direction and every blur within half a pixel of the
 /// picture: a power changes a direction by no more than the radius of the lens times the change, a blur by the pupil's.
 std::vector<Pass> passes_of(const RetinaInput& input, const RetinaView& view);
 

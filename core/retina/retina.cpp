@@ -8,6 +8,7 @@
 #include <tbb/task_arena.h>
 
 #include "core/retina/blur.h"
+#include "core/retina/exposure_lights.h"
 #include "core/retina/focus.h"
 #include "core/retina/lens_rim.h"
 #include "core/retina/passes.h"
@@ -28,26 +29,13 @@ struct Radii {
   float most_px = 0.0f;
 };
 
-/// The light of an exposure, averaged over what a look sees of it, and out of the projector's focus by rising radius;
-/// the first is sharp.
-struct Levels {
-  std::vector<SliceLight> lights;
-  std::vector<float> radii_px{0.0f};
-};
-
-/// For whole pixels and for the parts of those that an edge runs through: averaged over a whole pixel, a part would
-/// take half its light from beyond the edge.
-struct ExposureLight {
-  Levels whole, part;
-
-  bool any() const { return !whole.lights.empty() && whole.lights.front().any; }
-};
-
 /// What stands between maps and picture: everything a row needs.
 struct Work {
   const std::vector<Pass>& passes;
-  const std::vector<const SliceMap*>& maps;  ///< one per pass
-  const std::vector<ExposureLight>& lights;  ///< one per exposure
+  const std::vector<const SliceMap*>& maps;         ///< one per pass
+  const std::vector<const ExposureLight*>& lights;  ///< one per exposure; null: not seen
+  const std::array<float, 256>& light_of_code;
+  const RetinaInput& input;
   const Focus& focus;
   const LensRim& rim;
 };
@@ -74,50 +62,12 @@ std::vector<double> powers_of(const std::vector<Pass>& passes) {
   return powers_d;
 }
 
-/// Blur of the projector's is kept in steps of a factor of two; between two of them light is mixed by the square of the
-/// radius.
-Levels levels_of(SliceLight light, float most_px) {
-  Levels levels;
-  levels.lights.push_back(std::move(light));
-  for (float radius_px = 0.5f; levels.lights.front().any && levels.radii_px.back() < most_px; radius_px *= 2.0f) {
-    levels.lights.push_back(spread_light(levels.lights.front(), radius_px));
-    levels.radii_px.push_back(radius_px);
-  }
-  return levels;
-}
-
-bool has_edges(const SliceMap& map) {
-  return std::any_of(map.edges.begin(), map.edges.end(), [](const auto& row) { return !row.empty(); });
-}
-
-/// Light of every exposure that reaches the grid.
-std::vector<ExposureLight> lights_of(const RetinaInput& input, const std::vector<Pass>& passes,
-                                     const std::vector<const SliceMap*>& maps, const std::stop_token& stop) {
-  const auto light_of_code = light_of_codes(input.bits, input.gamma);
-  std::vector<ExposureLight> lights(input.exposures.size());
-  for (std::size_t i = 0; i < passes.size(); ++i) {
-    ExposureLight& light = lights[passes[i].exposure];
-    const SliceMap& map = *maps[i];
-    if (!map.any) continue;
-    const auto averaged_over = [&](const glm::dvec2& seen_px) {
-      return levels_of(slice_light(input.exposures[passes[i].exposure].codes, input.projector.width_px,
-                                   input.projector.height_px, input.channels, seen_px, light_of_code, stop),
-                       map.most_spread_px);
-    };
-    if (light.whole.lights.empty()) light.whole = averaged_over(map.seen_px);
-    if (light.part.lights.empty() && light.any() && has_edges(map))
-      light.part = averaged_over(map.seen_px / static_cast<double>(EdgePixel::across));
-    if (stop.stop_requested()) return lights;
-  }
-  return lights;
-}
-
 /// Reads an exposure where the projector is as sharp as a spot says.
 template <int channels>
 class ExposureSampler {
  public:
-  explicit ExposureSampler(const Levels& levels) : radii_px_(levels.radii_px) {
-    for (const SliceLight& level : levels.lights) levels_.emplace_back(level);
+  explicit ExposureSampler(const ExposureLight& light) : radii_px_(light.radii_px) {
+    for (const SliceLight& level : light.levels) levels_.emplace_back(level);
   }
 
   std::array<float, channels> at(const SliceSpot& spot) const {
@@ -144,8 +94,9 @@ class PassPainter {
   PassPainter(const Work& work, std::size_t pass, BlurLayers& layers)
       : work_(work),
         map_(*work.maps[pass]),
-        whole_(work.lights[work.passes[pass].exposure].whole),
-        part_(work.lights[work.passes[pass].exposure].part),
+        whole_(*work.lights[work.passes[pass].exposure]),
+        part_(work.input.exposures[work.passes[pass].exposure].codes, work.input.projector.width_px,
+              work.light_of_code),
         share_(work.passes[pass].share),
         layers_(layers) {}
 
@@ -155,19 +106,21 @@ class PassPainter {
     const auto edges_end = map_.edges[static_cast<std::size_t>(row)].end();
     for (int column = 0; column < map_.grid.width_px; ++column) {
       if (edge == edges_end || static_cast<int>(edge->column) != column) {
-        if (spots[column].lit()) add(column, row, spots[column], whole_, share_);
+        if (spots[column].lit()) add(column, row, spots[column], whole_.at(spots[column]), share_);
         continue;
       }
       for (const SliceSpot& part : edge->spots) {
-        if (part.lit()) add(column, row, part, part_, share_ / static_cast<float>(edge->spots.size()));
+        if (!part.lit()) continue;
+        const bool sharp = part.spread_px <= 0.0f;
+        add(column, row, part, sharp ? part_.at(part.x_px, part.y_px) : whole_.at(part),
+            share_ / static_cast<float>(edge->spots.size()));
       }
       ++edge;
     }
   }
 
  private:
-  void add(int column, int row, const SliceSpot& spot, const ExposureSampler<channels>& sampler, float share) {
-    std::array<float, channels> seen = sampler.at(spot);
+  void add(int column, int row, const SliceSpot& spot, std::array<float, channels> seen, float share) {
     float sum = 0.0f;
     for (const float one : seen) sum += one;
     if (!(sum > 0.0f)) return;
@@ -185,7 +138,8 @@ class PassPainter {
 
   const Work& work_;
   const SliceMap& map_;
-  ExposureSampler<channels> whole_, part_;
+  ExposureSampler<channels> whole_;
+  CodeSampler<channels> part_;
   float share_;
   BlurLayers& layers_;
 };
@@ -194,7 +148,8 @@ class PassPainter {
 template <int channels>
 void paint_row(const Work& work, int row, BlurLayers& layers) {
   for (std::size_t pass = 0; pass < work.passes.size(); ++pass) {
-    if (work.lights[work.passes[pass].exposure].any()) PassPainter<channels>(work, pass, layers).row(row);
+    const ExposureLight* light = work.lights[work.passes[pass].exposure];
+    if (light && light->any()) PassPainter<channels>(work, pass, layers).row(row);
   }
 }
 
@@ -226,6 +181,7 @@ struct Retina::State {
 
   tbb::task_arena arena;
   SliceMaps maps;
+  ExposureLights exposures;
   int margin_px = least_margin_px;  ///< light from outside the picture blurs into it; follows the blur
 };
 
@@ -244,12 +200,13 @@ Result<RetinaImage> Retina::State::view(const RetinaInput& input, const RetinaVi
   }
   const int margin = margin_px;
   while (margin_px > least_margin_px && radii.most_px < static_cast<float>(margin_px) / 4.0f) margin_px /= 2;
-  const std::vector<ExposureLight> lights = lights_of(input, passes, seen, stop);
+  const std::vector<const ExposureLight*> lights = exposures.of(input, passes, seen, stop);
   if (stop.stop_requested()) return cancelled;
   const LookGrid grid = grid_of(view, margin);
   const int channels = focus.channels() == 3 ? 3 : input.channels;
   BlurLayers layers(grid.width_px, grid.height_px, channels, radii.least_px, radii.most_px);
-  const Work work{passes, seen, lights, focus, rim};
+  const auto light_of_code = light_of_codes(input.bits, input.gamma);
+  const Work work{passes, seen, lights, light_of_code, input, focus, rim};
   tbb::parallel_for(0, grid.height_px, [&](int row) {
     if (!stop.stop_requested()) (input.channels == 1 ? paint_row<1> : paint_row<3>)(work, row, layers);
   });
@@ -273,9 +230,9 @@ struct FocusSum {
   }
 };
 
-double luminance_of(const ExposureLight& light, const SliceSpot& spot, int channels) {
-  if (channels == 1) return LightSampler<1>(light.whole.lights.front()).at(spot.x_px, spot.y_px)[0];
-  const std::array<float, 3> rgb = LightSampler<3>(light.whole.lights.front()).at(spot.x_px, spot.y_px);
+double luminance_of(const SliceLight& light, const SliceSpot& spot, int channels) {
+  if (channels == 1) return LightSampler<1>(light).at(spot.x_px, spot.y_px)[0];
+  const std::array<float, 3> rgb = LightSampler<3>(light).at(spot.x_px, spot.y_px);
   return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
 }
 
@@ -294,7 +251,7 @@ Result<DrivenFocus> Retina::State::driven_focus(const RetinaInput& input, const 
   const std::vector<Pass> passes = passes_of(input, view);
   const std::vector<const SliceMap*> seen = maps.of(input, view, margin_px, powers_of(passes), stop);
   if (stop.stop_requested()) return cancelled;
-  const std::vector<ExposureLight> lights = lights_of(input, passes, seen, stop);
+  const std::vector<const ExposureLight*> lights = exposures.of(input, passes, seen, stop);
   if (stop.stop_requested()) return cancelled;
   const LensRim rim(input, view);
   const auto pixels = static_cast<std::size_t>(view.width_px) * static_cast<std::size_t>(view.height_px);
@@ -306,12 +263,12 @@ Result<DrivenFocus> Retina::State::driven_focus(const RetinaInput& input, const 
       FocusSum sum;
       const int column = x + margin_px, row = y + margin_px;
       for (std::size_t i = 0; i < passes.size(); ++i) {
-        const ExposureLight& light = lights[passes[i].exposure];
+        const ExposureLight* light = lights[passes[i].exposure];
         const SliceSpot& spot = seen[i]->spots[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width_px) +
                                                static_cast<std::size_t>(column)];
-        if (!light.any() || !spot.lit()) continue;
+        if (!light || !light->any() || !spot.lit()) continue;
         const double open = double{passes[i].share} * rim.open_share(grid.look(column, row), spot.vergence_d);
-        sum.add(open * luminance_of(light, spot, input.channels),
+        sum.add(open * luminance_of(light->levels.front(), spot, input.channels),
                 vergence_at_lens_d(spot.vergence_d, input.lens_to_pupil_m));
       }
       put(sum, static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width_px) + static_cast<std::size_t>(x),
@@ -332,12 +289,12 @@ Result<std::optional<RetinaSight>> Retina::State::look_at(const RetinaInput& inp
   powers_d.push_back(0.0);  // the bare surface
   const std::vector<const SliceMap*> seen = maps.of(input, view, margin_px, powers_d, stop);
   if (stop.stop_requested()) return cancelled;
-  const std::vector<ExposureLight> lights = lights_of(input, passes, seen, stop);
+  const std::vector<const ExposureLight*> lights = exposures.of(input, passes, seen, stop);
   if (stop.stop_requested()) return cancelled;
   std::vector<SeenPass> lit;
   for (std::size_t i = 0; i < passes.size(); ++i) {
-    const ExposureLight& light = lights[passes[i].exposure];
-    if (light.any()) lit.push_back({seen[i], &light.whole.lights.front(), passes[i].share});
+    const ExposureLight* light = lights[passes[i].exposure];
+    if (light && light->any()) lit.push_back({seen[i], &light->levels.front(), passes[i].share});
   }
   return sight_at(lit, *seen.back(), eye_of(input, view), static_cast<int>(pixel.x) + margin_px,
                   static_cast<int>(pixel.y) + margin_px);

@@ -69,4 +69,26 @@ class LightSampler {
   glm::vec2 steep_;
 };
 
+/// Reads the codes themselves: for the sixteenths of a pixel, each so small that the projector's pixels are large
+/// beside it.
+template <int channels>
+class CodeSampler {
+ public:
+  CodeSampler(std::span<const std::uint8_t> codes, int width_px, const std::array<float, 256>& light_of_code)
+      : codes_(codes.data()), width_(static_cast<std::size_t>(width_px)), light_(light_of_code) {}
+
+  /// At a place within the image.
+  std::array<float, channels> at(float x_px, float y_px) const {
+    const std::size_t pixel = static_cast<std::size_t>(y_px) * width_ + static_cast<std::size_t>(x_px);
+    std::array<float, channels> light;
+    for (std::size_t c = 0; c < channels; ++c) light[c] = light_[codes_[pixel * channels + c]];
+    return light;
+  }
+
+ private:
+  const std::uint8_t* codes_;
+  std::size_t width_;
+  const std::array<float, 256>& light_;
+};
+
 }  // namespace focalstage

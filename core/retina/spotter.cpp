@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -68,12 +69,14 @@ bool Spotter::at_edge(int row, int column, const std::vector<SliceSpot>& spots) 
 }
 
 std::vector<EdgeFaces::Pixel> Spotter::edges(const std::vector<SliceSpot>& spots) const {
-  std::vector<EdgeFaces::Pixel> found;
-  for (int row = 0; row < raster_.grid.height_px; ++row) {
+  std::vector<std::vector<EdgeFaces::Pixel>> rows(static_cast<std::size_t>(raster_.grid.height_px));
+  tbb::parallel_for(0, raster_.grid.height_px, [&](int row) {
     for (int column = 0; column < raster_.grid.width_px; ++column) {
-      if (at_edge(row, column, spots)) found.push_back({column, row});
+      if (at_edge(row, column, spots)) rows[static_cast<std::size_t>(row)].push_back({column, row});
     }
-  }
+  });
+  std::vector<EdgeFaces::Pixel> found;
+  for (const auto& row : rows) found.insert(found.end(), row.begin(), row.end());
   return found;
 }
 

@@ -81,15 +81,24 @@ def test_what_an_eye_sees():
     """Each of the three rabbits is sharpest where it is meant to be, and the light stays."""
     with folder() as at:
         succeed("compile", PROJECTS / "three-rabbits", "-o", at / "rabbits.h5")
-        seen, light = {}, set()
+        seen, light, told_sharp = {}, [], {}
         for focus in ("0.333", "0.5", "1"):
             told = succeed("retina", at / "rabbits.h5", "--eye", "left", "--focus-m", focus, "--pupil-mm", "6", "--size",
                            "320x240", "-o", at / "eye.png", "--json").json()
             assert told["size_px"] == [320, 240] and told["exposures"] == 3, told
             assert abs(told["focus_d"] - 1 / float(focus)) < 1e-9, told
-            light.add(round(told["mean_light"], 4))
+            light.append(told["mean_light"])
             seen[focus] = png16(at / "eye.png")
-        assert len(light) == 1, light
+            told_sharp[focus] = {thing["name"]: thing["sharpness"] for thing in told["things"]}
+            assert told["leaked"] == 0, told
+        assert max(light) < min(light) * 1.002, light
+        for name, focus in (("near", "0.333"), ("middle", "0.5"), ("far", "1"), ("near-block", "0.333"), ("far-block", "1")):
+            assert max(told_sharp, key=lambda at_focus: told_sharp[at_focus][name]) == focus, (name, told_sharp)
+        slow = succeed("retina", at / "rabbits.h5", "--eye", "left", "--focus-m", "0.5", "--shutter-close-ms", "6", "--conflict",
+                       at / "conflict.png", "--rays", "2", "--size", "160x120", "-o", at / "slow.png", "--json").json()
+        assert 0.01 < slow["leaked"] < 0.5, slow
+        near = next(thing for thing in slow["things"] if thing["name"] == "near")
+        assert near["kind"] == "object" and abs(near["conflict_mean_d"]) < 0.3, near
         # The rabbits stand below each other: the one at 0.333 m lowest, the one at 1 m highest.
         for focus, rows in (("1", (30, 86)), ("0.5", (89, 151)), ("0.333", (154, 220))):
             sharp = {other: contrast(picture, 165, 240, *rows) for other, picture in seen.items()}

@@ -87,9 +87,9 @@ TEST_CASE("an eye gets its own exposures, at the lens' power, and the light that
     }
     std::sort(powers_d.begin(), powers_d.end());
     REQUIRE(powers_d.size() == 3);
-    CHECK(powers_d[0] == doctest::Approx(-0.5));
-    CHECK(std::abs(powers_d[1]) < 1e-9);  // the light image
-    CHECK(powers_d[2] == doctest::Approx(0.5));
+    CHECK(powers_d[0] == doctest::Approx(-0.5).epsilon(0.005));  // the mean of a bent curve
+    CHECK(std::abs(powers_d[1]) < 1e-9);                         // the light image
+    CHECK(powers_d[2] == doctest::Approx(0.5).epsilon(0.005));
     CHECK(input.projector.width_px == 64);
     CHECK(input.lens_aperture_m == doctest::Approx(0.016));
     const auto image = Retina(1).view(input, {});
