@@ -10,6 +10,7 @@ find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED)
 find_package(TinyGLTF REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(Boost 1.74 REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(doctest REQUIRED)
 

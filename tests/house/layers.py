@@ -33,6 +33,7 @@ LIBRARY_OF = [
     (r"^(hdf5|H5[A-Za-z]*)\.h$", "hdf5::hdf5"),
     (r"^libdeflate\.h$", "deflate::deflate"),
     (r"^CLI/", "CLI11::CLI11"),
+    (r"^boost/", "Boost::headers"),
     (r"^spdlog/", "spdlog::spdlog"),
     (r"^glm/", "glm::glm"),
     (r"^(grpc|grpcpp|grpc\+\+)/", "gRPC::grpc++"),
