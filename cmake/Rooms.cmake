@@ -21,6 +21,7 @@ focalstage_room(io/image        USES io/files core/mesh            PRIVATE_LIBS 
 focalstage_room(io/project      USES io/json io/files core/scene   PRIVATE_LIBS ValiJSON::valijson nlohmann_json::nlohmann_json)
 focalstage_room(io/journal      USES io/json io/files core/scene)
 focalstage_room(io/assets       USES io/image io/files core/scene core/mesh PRIVATE_LIBS TinyGLTF::TinyGLTF nlohmann_json::nlohmann_json)
+focalstage_room(io/study        USES io/project io/json io/files core/study core/scene)
 focalstage_room(io/show         USES io/project io/assets io/files core/schedule core/compile core/stage
                                 PRIVATE_LIBS hdf5::hdf5 deflate::deflate TBB::tbb)
 focalstage_room(io/export       USES io/show io/image io/files      PRIVATE_LIBS TBB::tbb)
@@ -37,7 +38,8 @@ focalstage_room(devices/runtime USES devices/player devices/sim io/show io/proje
 focalstage_room(editor/samples  USES io/files core/base)
 focalstage_room(editor/pipeline USES io/project io/assets io/show core/check core/reference core/compile core/percept core/retina
                                      core/schedule)
-focalstage_room(editor/cli      USES editor/samples editor/pipeline io/project io/assets io/show io/export io/protocol
+focalstage_room(editor/trials   USES editor/pipeline io/study io/protocol io/show io/project core/study)
+focalstage_room(editor/cli      USES editor/samples editor/pipeline editor/trials io/study io/project io/assets io/show io/export io/protocol
                                      core/check core/reference core/compile core/percept core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
 focalstage_room(editor/document USES editor/samples io/journal io/project io/assets io/files core/scene)

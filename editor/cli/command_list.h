@@ -15,6 +15,7 @@ Command::Run declare_rig(CLI::App& app);
 Command::Run declare_import(CLI::App& app);
 Command::Run declare_apply(CLI::App& app);
 Command::Run declare_adopt_rig(CLI::App& app);
+Command::Run declare_trials(CLI::App& app);
 Command::Run declare_runtime(CLI::App& app);
 Command::Run declare_edit(CLI::App& app);
 Command::Run declare_bench(CLI::App& app);

@@ -50,22 +50,23 @@ std::string pointer_from(const std::vector<std::string>& steps) {
 }
 
 /// Of what the validator says, the deepest: outer complaints only repeat that something within is wrong.
-Fault deepest(valijson::ValidationResults& results) {
-  Fault fault{"project.schema", "", "does not agree with the project's schema", "see io/schema/project.schema.json"};
+Fault deepest(valijson::ValidationResults& results, const std::string& kind) {
+  const std::string refused = "does not agree with the " + kind + "'s schema";
+  Fault fault{kind + ".schema", "", refused, "see io/schema/" + kind + ".schema.json"};
   std::size_t depth = 0;
   valijson::ValidationResults::Error error;
   while (results.popError(error)) {
     if (error.context.size() < depth) continue;
     depth = error.context.size() + 1;
     fault.where = pointer_from(error.context);
-    fault.message = "does not agree with the project's schema: " + error.description;
+    fault.message = refused + ": " + error.description;
   }
   return fault;
 }
 
 }  // namespace
 
-std::optional<Fault> schema_fault(const Value& value, std::string_view schema_text) {
+std::optional<Fault> schema_fault(const Value& value, std::string_view schema_text, const std::string& kind) {
   try {
     const json schema_json = json::parse(schema_text);
     const json target_json = json_from(value);
@@ -76,9 +77,9 @@ std::optional<Fault> schema_fault(const Value& value, std::string_view schema_te
     valijson::ValidationResults results;
     const valijson::adapters::NlohmannJsonAdapter target(target_json);
     if (validator.validate(schema, target, &results)) return std::nullopt;
-    return deepest(results);
+    return deepest(results, kind);
   } catch (const std::exception& error) {
-    return Fault{"project.schema", "", std::string("cannot be held against the schema: ") + error.what(), ""};
+    return Fault{kind + ".schema", "", std::string("cannot be held against the schema: ") + error.what(), ""};
   }
 }
 

@@ -1,0 +1,161 @@
+#include "editor/trials/key_seat.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "core/study/response.h"
+#include "editor/trials/trial_words.h"
+
+namespace focalstage {
+namespace {
+
+constexpr double few_steps = 1.0;
+constexpr double many_steps = 10.0;
+constexpr std::size_t longest_typed = 8;
+
+void say(const std::string& text) {
+  std::printf("\r\x1b[K%s\r\n", text.c_str());
+  std::fflush(stdout);
+}
+
+/// On the same line, over what stood there.
+void show(const std::string& text) {
+  std::printf("\r\x1b[K%s", text.c_str());
+  std::fflush(stdout);
+}
+
+Key key_of(const std::string& sequence) {
+  if (sequence == "\x1b[A" || sequence == "\x1b[C" || sequence == "\x1bOA" || sequence == "\x1bOC") return Key::farther;
+  if (sequence == "\x1b[B" || sequence == "\x1b[D" || sequence == "\x1bOB" || sequence == "\x1bOD") return Key::nearer;
+  if (sequence == "\x1b[5~") return Key::much_farther;
+  if (sequence == "\x1b[6~") return Key::much_nearer;
+  return Key::none;
+}
+
+bool ends_sequence(const std::string& sequence) {
+  const bool opened = sequence.size() == 2 && (sequence[1] == '[' || sequence[1] == 'O');
+  return sequence.size() > 1 && !opened && sequence.back() >= '@' && sequence.back() <= '~';
+}
+
+}  // namespace
+
+KeyPress KeyDecoder::take(char byte) {
+  if (byte == '\x1b') {
+    sequence_ = byte;
+    return {};
+  }
+  if (!sequence_.empty()) {
+    sequence_ += byte;
+    if (!ends_sequence(sequence_)) return {};
+    const Key key = key_of(sequence_);
+    sequence_.clear();
+    return {key, 0};
+  }
+  if (byte == '\r' || byte == '\n') return {Key::enter, 0};
+  if (byte == '\x7f' || byte == '\b') return {Key::erase, 0};
+  return {Key::character, byte};
+}
+
+void PointerEntry::move(double steps) {
+  typed_.clear();
+  moved_ = true;
+  reading_m_ = std::clamp(reading_m_ + steps * pointer_.step_m, pointer_.from_m, pointer_.to_m);
+}
+
+bool PointerEntry::take(const KeyPress& press) {
+  switch (press.key) {
+    case Key::farther:
+      move(few_steps);
+      return true;
+    case Key::nearer:
+      move(-few_steps);
+      return true;
+    case Key::much_farther:
+      move(many_steps);
+      return true;
+    case Key::much_nearer:
+      move(-many_steps);
+      return true;
+    case Key::erase:
+      if (!typed_.empty()) typed_.pop_back();
+      return true;
+    case Key::character:
+      if ((press.character < '0' || press.character > '9') && press.character != '.') return false;
+      if (typed_.size() < longest_typed) typed_ += press.character;
+      return true;
+    default:
+      return false;
+  }
+}
+
+Result<double> PointerEntry::confirmed() const {
+  if (!typed_.empty()) return reading_from(typed_, pointer_);
+  if (moved_) return reading_m_;
+  return Fault{"trials.reading", "answer", "the pointer stands where it was put",
+               "move it with the arrows or type its reading first"};
+}
+
+std::string PointerEntry::text() const { return typed_.empty() ? reading_text(reading_m_) : typed_ + "_ mm"; }
+
+std::string KeySeat::kind() const { return human_kind; }
+
+void KeySeat::begin_block(const std::vector<Block>& plan, const Block& block) {
+  say(block_text(plan, block));
+  say("Arrows and page keys move the reading, digits type it in mm, Enter confirms; g gives up, q pauses.");
+}
+
+Result<Choice> KeySeat::enter_or_q(const WhileWaiting& check) {
+  KeyDecoder decoder;
+  input_.forget();
+  for (;;) {
+    const auto byte = input_.next(check);
+    if (!byte) return byte.fault();
+    const KeyPress press = decoder.take(*byte);
+    if (press.key == Key::enter) return Choice::go_on;
+    if (press.key == Key::character && press.character == 'q') return Choice::pause;
+  }
+}
+
+Result<Choice> KeySeat::ready(const TrialInPlan& at, const WhileWaiting& check) {
+  show(trial_text(at) + ". Enter when it stands there.");
+  return enter_or_q(check);
+}
+
+Result<Answer> KeySeat::answer(const TrialInPlan& at, const WhileWaiting& check) {
+  PointerEntry entry(at.study.pointer, at.trial.pointer_start_m);
+  KeyDecoder decoder;
+  for (;;) {
+    show("Trial " + std::to_string(at.trial.number) + " of " + std::to_string(at.block.trials.size()) + ": " +
+         entry.text());
+    const auto byte = input_.next(check);
+    if (!byte) return byte.fault();
+    const KeyPress press = decoder.take(*byte);
+    if (entry.take(press)) continue;
+    if (press.key == Key::character && press.character == 'g') return Answer{Answer::Kind::gave_up, 0.0};
+    if (press.key == Key::character && press.character == 'q') return Answer{Answer::Kind::pause, 0.0};
+    if (press.key != Key::enter) continue;
+    const auto reading_m = entry.confirmed();
+    if (reading_m) return Answer{Answer::Kind::matched, *reading_m};
+    say(complaint(reading_m.fault()));
+  }
+}
+
+Result<Choice> KeySeat::trouble(const std::string& what) {
+  say(printable(what));
+  show("Enter goes on and lets the rig be lit again, q pauses.");
+  return enter_or_q({});
+}
+
+Result<std::optional<bool>> KeySeat::question(const std::string& text) {
+  show(printable(text) + " (y or n, q to pause) ");
+  for (;;) {
+    const auto byte = input_.next({});
+    if (!byte) return byte.fault();
+    if (*byte != 'y' && *byte != 'n' && *byte != 'q') continue;
+    say(printable(text) + (*byte == 'y' ? " Yes." : *byte == 'n' ? " No." : ""));
+    if (*byte == 'q') return std::optional<bool>();
+    return std::optional(*byte == 'y');
+  }
+}
+
+}  // namespace focalstage

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "editor/trials/input.h"
+
+namespace focalstage {
+
+/// A person whose answers come line by line, from a pipe or a slider's own program: a distance in mm, `g` gives up, `q`
+/// pauses. What is said to the person goes to stdout.
+class LineSeat final : public TrialParticipant {
+ public:
+  LineSeat(int input, std::stop_token stop) : input_(input, std::move(stop)) {}
+
+  std::string kind() const override;
+  void begin_block(const std::vector<Block>& plan, const Block& block) override;
+  Result<Choice> ready(const TrialInPlan& at, const WhileWaiting& check) override;
+  Result<Answer> answer(const TrialInPlan& at, const WhileWaiting& check) override;
+  Result<Choice> trouble(const std::string& what) override;
+  bool lifts_darkness() const override { return true; }
+  Result<std::optional<bool>> question(const std::string& text) override;
+
+ private:
+  Input input_;
+};
+
+}  // namespace focalstage
