@@ -27,7 +27,8 @@ struct Response {
   double started_s = 0.0;   ///< monotonic, since this sitting's part of the block began
   double duration_s = 0.0;  ///< from light to answer
   std::string show_sha256;
-  std::string rig;  ///< the kind it says it is: "sim" or the hardware's
+  double interpupillary_mm = 0.0;  ///< that the show was made for
+  std::string rig;                 ///< the kind it says it is: "sim" or the hardware's
 
   bool operator==(const Response&) const = default;
 

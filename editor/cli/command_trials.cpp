@@ -33,6 +33,7 @@ struct Options {
   std::string rig;
   std::string out;
   std::string scripted;
+  double interpupillary_mm = 0.0;  ///< 0: the project's
   bool resume = false;
   bool one_block = false;
   bool json = false;
@@ -158,6 +159,18 @@ Result<AnswerLog> open_log(const Options& options, const Study& study, const fs:
   return log;
 }
 
+/// The distance between the participant's eyes: as given, or as it was before. Nothing: the project's.
+Result<std::optional<double>> interpupillary_of(const Options& options, const AnswerLog& log) {
+  std::optional<double> given;
+  if (options.interpupillary_mm > 0.0) given = options.interpupillary_mm;
+  if (log.responses().empty()) return given;
+  const double before_mm = log.responses().back().interpupillary_mm;
+  if (!given || *given == before_mm) return std::optional(before_mm);
+  return Fault{"study.show-differs", "--interpupillary-mm " + short_number(*given),
+               options.participant + " began with " + short_number(before_mm) + " mm",
+               "leave the option out, or begin anew in another folder (--out)"};
+}
+
 Status check_all_shows(const Study& study, const std::vector<ReadyCondition>& conditions, const fs::path& out) {
   const auto all = load_answers(out);
   if (!all) return all.fault();
@@ -181,7 +194,10 @@ Result<SittingEnd> sit(const Options& options, const LoadedStudy& loaded, const 
   if (!log) return log.fault();
   if (log->was_torn())
     std::fprintf(stderr, "focalstage: a row was being written when the power went; its trial is repeated\n");
-  auto conditions = make_conditions(loaded.study, loaded.file.parent_path(), out / "shows", stop);
+  const auto interpupillary_mm = interpupillary_of(options, *log);
+  if (!interpupillary_mm) return interpupillary_mm.fault();
+  const fs::path shows = out / "shows" / options.participant;
+  auto conditions = make_conditions(loaded.study, loaded.file.parent_path(), shows, *interpupillary_mm, stop);
   if (!conditions) return conditions.fault();
   if (Status same = check_all_shows(loaded.study, *conditions, out); !same) return same.fault();
   const Sitting sitting{loaded.study, options.participant, std::move(*conditions), options.one_block};
@@ -260,6 +276,10 @@ void declare_run(CLI::App& app, Options& options) {
   add_rig_option(app, options.rig);
   app.add_option("--out", options.out, "where answers are kept; \"answers\" beside the study by default")
       ->type_name("DIR");
+  app.add_option("--interpupillary-mm", options.interpupillary_mm,
+                 "between this participant's pupils, as measured; the project's by default")
+      ->type_name("MM")
+      ->check(CLI::Range(40.0, 80.0).name(""));
   app.add_flag("--resume", options.resume, "go on where this participant stopped");
   app.add_flag("--one-block", options.one_block, "end after the block under way, as for one day of the paper's two");
   app.add_option("--scripted", options.scripted, "rehearse with a script instead of a person: " + scripted_names())

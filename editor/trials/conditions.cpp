@@ -29,13 +29,16 @@ Status check_findings(const std::vector<Finding>& findings, const Condition& con
 }
 
 Status compile_condition(const Study& study, std::size_t index, const fs::path& folder, const fs::path& show,
-                         const std::stop_token& stop) {
+                         const std::optional<double>& interpupillary_mm, const std::stop_token& stop) {
   const Condition& condition = study.conditions[index];
   auto source = open_project(folder / condition.project);
   if (!source) return source.fault();
   std::vector<Edit> edits = variant_edits(source->project, condition.variant);
   const std::vector<Edit> cues = cue_edits(source->project, study);
   edits.insert(edits.end(), cues.begin(), cues.end());
+  if (interpupillary_mm && *interpupillary_mm != source->project.viewer.interpupillary_mm) {
+    edits.push_back({Edit::Kind::set, "viewer", "", "interpupillary_mm", *interpupillary_mm});
+  }
   if (!edits.empty()) {
     auto changed = apply_all(source->project, edits);
     if (!changed) return changed.fault();
@@ -65,8 +68,11 @@ Result<ShownTarget> find_target(const ShowHeader& header, const Target& target, 
 Result<ReadyCondition> look_into(const Study& study, const fs::path& show, const std::stop_token& stop) {
   const auto reader = ShowReader::open(show);
   if (!reader) return reader.fault();
+  const auto project = parse_project(reader->header().project_text, show.string());
+  if (!project) return project.fault();
   ReadyCondition ready;
   ready.show = show;
+  ready.interpupillary_mm = project->project.viewer.interpupillary_mm;
   for (std::size_t t = 0; t < study.targets.size(); ++t) {
     const auto target = find_target(reader->header(), study.targets[t], t, show);
     if (!target) return target.fault();
@@ -108,6 +114,7 @@ std::vector<Edit> cue_edits(const Project& project, const Study& study) {
 }
 
 Result<std::vector<ReadyCondition>> make_conditions(const Study& study, const fs::path& folder, const fs::path& shows,
+                                                    const std::optional<double>& interpupillary_mm,
                                                     const std::stop_token& stop) {
   std::error_code problem;
   fs::create_directories(shows, problem);
@@ -118,10 +125,15 @@ Result<std::vector<ReadyCondition>> make_conditions(const Study& study, const fs
     fs::path show = folder / condition.show;
     if (condition.show.empty()) {
       show = shows / ("condition-" + std::to_string(k + 1) + ".h5");
-      if (Status compiled = compile_condition(study, k, folder, show, stop); !compiled) return compiled.fault();
+      const Status compiled = compile_condition(study, k, folder, show, interpupillary_mm, stop);
+      if (!compiled) return compiled.fault();
     }
     auto ready = look_into(study, show, stop);
     if (!ready) return ready.fault();
+    if (interpupillary_mm && ready->interpupillary_mm != *interpupillary_mm) {
+      return Fault{"study.condition", place_of(k), show.string() + " is made for eyes another distance apart",
+                   "name the project in place of the show, or leave out --interpupillary-mm"};
+    }
     conditions.push_back(std::move(*ready));
   }
   return conditions;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ struct ShownTarget {
 struct ReadyCondition {
   std::filesystem::path show;
   std::string sha256;                ///< of the file: what the rig calls it
+  double interpupillary_mm = 0.0;    ///< of the viewer it was made for
   std::vector<ShownTarget> targets;  ///< in the study's order
 };
 
@@ -34,10 +36,13 @@ std::vector<Edit> variant_edits(const Project& project, Variant variant);
 /// A cue at every frame that a target names and no cue has.
 std::vector<Edit> cue_edits(const Project& project, const Study& study);
 
-/// Makes the shows of all conditions: projects are compiled into `shows`, shows are taken as they are. `folder` is what
-/// the study's paths are relative to. Faults: "study.condition" where a show would be refused by every rig,
-/// "study.target" where a show lacks a target's cue or frame, and those of projects and shows.
+/// Makes the shows of all conditions: projects are compiled into `shows`, for an interpupillary distance of their own
+/// or the one given; shows are taken as they are. `folder` is what the study's paths are relative to. Faults:
+/// "study.condition" where a show would be refused by every rig, "study.target" where a show lacks a target's cue or
+/// frame, and those of projects and shows.
 Result<std::vector<ReadyCondition>> make_conditions(const Study& study, const std::filesystem::path& folder,
-                                                    const std::filesystem::path& shows, const std::stop_token& stop);
+                                                    const std::filesystem::path& shows,
+                                                    const std::optional<double>& interpupillary_mm,
+                                                    const std::stop_token& stop);
 
 }  // namespace focalstage

@@ -106,7 +106,6 @@ void KeySeat::begin_block(const std::vector<Block>& plan, const Block& block) {
 
 Result<Choice> KeySeat::enter_or_q(const WhileWaiting& check) {
   KeyDecoder decoder;
-  input_.forget();
   for (;;) {
     const auto byte = input_.next(check);
     if (!byte) return byte.fault();
@@ -116,7 +115,10 @@ Result<Choice> KeySeat::enter_or_q(const WhileWaiting& check) {
   }
 }
 
+void KeySeat::notice(const std::string& what) { say(printable(what)); }
+
 Result<Choice> KeySeat::ready(const TrialInPlan& at, const WhileWaiting& check) {
+  input_.forget();
   show(trial_text(at) + ". Enter when it stands there.");
   return enter_or_q(check);
 }
@@ -142,6 +144,7 @@ Result<Answer> KeySeat::answer(const TrialInPlan& at, const WhileWaiting& check)
 
 Result<Choice> KeySeat::trouble(const std::string& what) {
   say(printable(what));
+  input_.forget();
   show("Enter goes on and lets the rig be lit again, q pauses.");
   return enter_or_q({});
 }

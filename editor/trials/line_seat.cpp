@@ -19,6 +19,8 @@ std::string LineSeat::kind() const { return human_kind; }
 
 void LineSeat::begin_block(const std::vector<Block>& plan, const Block& block) { say(block_text(plan, block)); }
 
+void LineSeat::notice(const std::string& what) { say(printable(what)); }
+
 Result<Choice> LineSeat::ready(const TrialInPlan&, const WhileWaiting&) { return Choice::go_on; }
 
 Result<Answer> LineSeat::answer(const TrialInPlan& at, const WhileWaiting& check) {

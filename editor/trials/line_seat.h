@@ -12,6 +12,7 @@ class LineSeat final : public TrialParticipant {
 
   std::string kind() const override;
   void begin_block(const std::vector<Block>& plan, const Block& block) override;
+  void notice(const std::string& what) override;
   Result<Choice> ready(const TrialInPlan& at, const WhileWaiting& check) override;
   Result<Answer> answer(const TrialInPlan& at, const WhileWaiting& check) override;
   Result<Choice> trouble(const std::string& what) override;

@@ -43,6 +43,9 @@ class TrialParticipant {
   /// A part of a block begins.
   virtual void begin_block(const std::vector<Block>& plan, const Block& block) = 0;
 
+  /// Something to be known, to which nothing need be answered.
+  virtual void notice(const std::string& what) = 0;
+
   /// In the dark: the pointer is put to where the trial wants it.
   virtual Result<Choice> ready(const TrialInPlan& at, const WhileWaiting& check) = 0;
 

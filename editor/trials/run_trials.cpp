@@ -4,6 +4,7 @@
 #include <chrono>
 #include <optional>
 #include <set>
+#include <thread>
 
 #include "editor/trials/faults.h"
 
@@ -11,6 +12,10 @@ namespace focalstage {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// A lease lasts 10 s after its holder was last heard of.
+constexpr std::chrono::seconds lease_ends_within{12};
+constexpr std::chrono::milliseconds between_tries{200};
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -34,6 +39,7 @@ class Run {
   Result<Choice> block();
   Result<Choice> set_up(std::optional<std::string> trouble = std::nullopt);
   Result<Choice> mend(const Fault& fault, bool repeats);
+  bool waits_for_lease(const Fault& fault);
   Result<Choice> trial();
   Result<Choice> lit_trial(const TrialInPlan& at);
   Status write(const TrialInPlan& at, const Answer& answer, const std::string& spoiled, Clock::time_point lit_at);
@@ -53,6 +59,7 @@ class Run {
   int sitting_number_;
   int spoiled_ = 0;
   bool was_ready_ = false;
+  std::optional<Clock::time_point> held_since_;
   Clock::time_point block_began_{};
 };
 
@@ -63,8 +70,20 @@ void Run::advance() {
   ++progress_.block;
 }
 
+/// A rig that says it is held may be held by this very study, killed a moment ago: its lease ends by itself.
+bool Run::waits_for_lease(const Fault& fault) {
+  if (fault.code != "rig.held" || was_ready_) return false;
+  if (!held_since_) {
+    held_since_ = Clock::now();
+    participant_.notice("The rig is held: " + fault.message + ". Waiting for it.");
+  }
+  if (Clock::now() - *held_since_ > lease_ends_within) return false;
+  std::this_thread::sleep_for(between_tries);
+  return true;
+}
+
 /// Connects and prepares the block's show. Where the rig is in trouble, asks for help until it works; the first time,
-/// only for a darkness that somebody has to end: a rig that is not there is nothing to wait for.
+/// only for a darkness that a person may end: a rig that is not there is nothing to wait for.
 Result<Choice> Run::set_up(std::optional<std::string> trouble) {
   for (;;) {
     if (trouble) {
@@ -79,8 +98,10 @@ Result<Choice> Run::set_up(std::optional<std::string> trouble) {
     }
     if (stop_.stop_requested()) return stopped();
     const Fault& fault = ready.fault();
+    if (waits_for_lease(fault)) continue;
     const bool hopeless = !is_of_rig(fault) || fault.code == "rig.differs";
-    if (hopeless || (!was_ready_ && fault.code != "rig.dark")) return fault;
+    const bool may_be_lit = fault.code == "rig.dark" && participant_.lifts_darkness();
+    if (hopeless || (!was_ready_ && !may_be_lit)) return fault;
     trouble = "The rig is not ready: " + describe(fault) + ".";
   }
 }
@@ -113,6 +134,7 @@ Status Run::write(const TrialInPlan& at, const Answer& answer, const std::string
   row.started_s = std::chrono::duration<double>(lit_at - block_began_).count();
   row.duration_s = seconds_since(lit_at);
   row.show_sha256 = condition().sha256;
+  row.interpupillary_mm = condition().interpupillary_mm;
   row.rig = rig_.kind();
   if (!spoiled.empty()) ++spoiled_;
   return log_.add(row);
@@ -196,7 +218,7 @@ Status check_shows(const Study& study, const std::vector<ReadyCondition>& condit
                    const std::vector<Response>& responses) {
   for (const Response& response : responses) {
     const ReadyCondition& condition = conditions[static_cast<std::size_t>(response.condition)];
-    if (response.show_sha256 == condition.sha256) continue;
+    if (response.show_sha256 == condition.sha256 || response.interpupillary_mm != condition.interpupillary_mm) continue;
     const std::string& name = study.conditions[static_cast<std::size_t>(response.condition)].name;
     return Fault{"study.show-differs", condition.show.string(),
                  "condition \"" + name + "\" is not what " + response.participant + " saw: its show has changed",

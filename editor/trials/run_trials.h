@@ -34,7 +34,8 @@ struct SittingEnd {
 Result<SittingEnd> run_trials(const Sitting& sitting, AnswerLog& log, TrialRig& rig, TrialParticipant& participant,
                               const std::stop_token& stop);
 
-/// Shows of a study must not change while it runs: each row's against that of its condition.
+/// Shows of a study must not change while it runs: each row's against that of its condition, where it was made for the
+/// same distance between the eyes.
 Status check_shows(const Study& study, const std::vector<ReadyCondition>& conditions,
                    const std::vector<Response>& responses);
 

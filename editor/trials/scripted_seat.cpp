@@ -21,6 +21,11 @@ void ScriptedSeat::begin_block(const std::vector<Block>& plan, const Block& bloc
   std::fflush(stdout);
 }
 
+void ScriptedSeat::notice(const std::string& what) {
+  std::printf("%s\n", what.c_str());
+  std::fflush(stdout);
+}
+
 Result<Choice> ScriptedSeat::ready(const TrialInPlan&, const WhileWaiting&) {
   if (stop_.stop_requested()) return stopped();
   return Choice::go_on;

@@ -123,13 +123,26 @@ bool is_sha256(const std::string& text) {
 std::string row_of(const Study& study, const Response& response) {
   const Condition& condition = study.conditions[static_cast<std::size_t>(response.condition)];
   const Target& target = study.targets[static_cast<std::size_t>(response.target)];
-  return joined({study_fingerprint(study), response.participant, response.kind, std::to_string(response.block),
-                 condition.name, std::to_string(response.trial), response.training ? "1" : "0", target.name,
-                 std::to_string(response.repetition), number_text(response.actual_m),
+  return joined({study_fingerprint(study),
+                 response.participant,
+                 response.kind,
+                 std::to_string(response.block),
+                 condition.name,
+                 std::to_string(response.trial),
+                 response.training ? "1" : "0",
+                 target.name,
+                 std::to_string(response.repetition),
+                 number_text(response.actual_m),
                  number_text(response.pointer_start_m),
-                 response.answered() ? number_text(response.response_m) : std::string(), response.gave_up ? "1" : "0",
-                 response.spoiled, std::to_string(response.sitting), number_text(response.started_s),
-                 number_text(response.duration_s), response.show_sha256, response.rig});
+                 response.answered() ? number_text(response.response_m) : std::string(),
+                 response.gave_up ? "1" : "0",
+                 response.spoiled,
+                 std::to_string(response.sitting),
+                 number_text(response.started_s),
+                 number_text(response.duration_s),
+                 response.show_sha256,
+                 number_text(response.interpupillary_mm),
+                 response.rig});
 }
 
 std::string row_of(const Study& study, const QuestionAnswer& answer) {
@@ -160,6 +173,7 @@ Result<Response> response_from(const Study& study, std::string_view row, const s
   response.started_s = reader.number();
   response.duration_s = reader.number();
   response.show_sha256 = reader.known_text(is_sha256, "is no SHA-256");
+  response.interpupillary_mm = reader.number();
   response.rig = reader.text();
   if (response.answered() && !(response.response_m >= study.pointer.from_m) && !reader.fault()) {
     return Fault{"study.rows", source, "has an answer that lies outside the pointer's range, or none",

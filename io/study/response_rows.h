@@ -12,7 +12,7 @@ namespace focalstage {
 /// The first line of a file of responses, and of one of answers to the study's questions.
 inline constexpr std::string_view response_header =
     "study,participant,kind,block,condition,trial,training,target,repetition,actual_m,pointer_start_m,response_m,"
-    "gave_up,spoiled,sitting,started_s,duration_s,show_sha256,rig";
+    "gave_up,spoiled,sitting,started_s,duration_s,show_sha256,interpupillary_mm,rig";
 inline constexpr std::string_view answer_header = "study,participant,kind,question,answer";
 
 /// What a participant said to a question.
