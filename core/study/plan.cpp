@@ -61,9 +61,11 @@ std::vector<PassStart> pass_starts(const WilliamsDesign& design, int passes, See
   return starts;
 }
 
+/// To the nanometre, so that tables show the step's decimals and no more.
 double pointer_start(const Pointer& pointer, Seeded& chance) {
   const auto steps = static_cast<std::uint64_t>(std::floor((pointer.to_m - pointer.from_m) / pointer.step_m + 1e-9));
-  return std::min(pointer.from_m + static_cast<double>(chance.below(steps + 1)) * pointer.step_m, pointer.to_m);
+  const double start_m = pointer.from_m + static_cast<double>(chance.below(steps + 1)) * pointer.step_m;
+  return std::clamp(std::round(start_m * 1e9) / 1e9, pointer.from_m, pointer.to_m);
 }
 
 }  // namespace

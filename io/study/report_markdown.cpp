@@ -232,14 +232,6 @@ std::string shows(const Report& report) {
 
 }  // namespace
 
-Report report_of(Answers answers) {
-  Report report;
-  report.tallies = tally_of(answers.study, answers.responses);
-  report.analysis = analyse(answers.study, answers.responses);
-  report.answers = std::move(answers);
-  return report;
-}
-
 std::string report_markdown(const Report& report, const std::string& plot) {
   std::string text = heading(report) + participants(report) + means(report);
   if (!plot.empty()) text += "\n![Estimated over actual distance, with the line of each condition](" + plot + ")\n";
