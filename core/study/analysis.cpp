@@ -22,7 +22,7 @@ Spread spread_of(const std::vector<double>& values_m) {
   return spread;
 }
 
-Summary summary_of(const Cells& cells, int condition, int target) {
+ErrorSummary summary_of(const CellMeans& cells, int condition, int target) {
   std::vector<double> estimated;
   std::vector<double> errors;
   for (const CellMean& mean : cells.means) {
@@ -34,7 +34,7 @@ Summary summary_of(const Cells& cells, int condition, int target) {
 }
 
 /// The mean over targets of a participant's errors under a condition; nothing where one is missing.
-std::optional<double> mean_error(const Study& study, const Cells& cells, int participant, int condition) {
+std::optional<double> mean_error(const Study& study, const CellMeans& cells, int participant, int condition) {
   double sum = 0.0;
   std::size_t count = 0;
   for (const CellMean& mean : cells.means) {
@@ -46,7 +46,7 @@ std::optional<double> mean_error(const Study& study, const Cells& cells, int par
   return sum / static_cast<double>(count);
 }
 
-std::optional<Within> within_of(const Study& study, const Cells& cells, int first, int second) {
+std::optional<Within> within_of(const Study& study, const CellMeans& cells, int first, int second) {
   std::vector<double> differences;
   for (const int participant : cells.used) {
     const auto a = mean_error(study, cells, participant, first);
@@ -68,8 +68,8 @@ std::optional<Within> within_of(const Study& study, const Cells& cells, int firs
 
 }  // namespace
 
-Analysis analyse(const Study& study, const std::vector<Response>& responses) {
-  Analysis analysis;
+StudyAnalysis analyse(const Study& study, const std::vector<Response>& responses) {
+  StudyAnalysis analysis;
   analysis.cells = cells_of(study, responses);
   const int conditions = static_cast<int>(study.conditions.size());
   for (int condition = 0; condition < conditions; ++condition) {

@@ -17,7 +17,7 @@ struct Spread {
 };
 
 /// One condition at one target, or (target -1) at all of them.
-struct Summary {
+struct ErrorSummary {
   int condition = 0;
   int target = -1;
   Spread estimated;
@@ -39,15 +39,15 @@ struct Within {
 };
 
 /// Everything a report says of the answers.
-struct Analysis {
-  Cells cells;
-  std::vector<Summary> by_target;  ///< condition by condition
-  std::vector<Summary> by_condition;
+struct StudyAnalysis {
+  CellMeans cells;
+  std::vector<ErrorSummary> by_target;  ///< condition by condition
+  std::vector<ErrorSummary> by_condition;
   std::optional<Regression> regression;
   std::optional<Anova> anova;
   std::vector<Within> within;  ///< pairs with at least two whole participants whose differences vary
 };
 
-Analysis analyse(const Study& study, const std::vector<Response>& responses);
+StudyAnalysis analyse(const Study& study, const std::vector<Response>& responses);
 
 }  // namespace focalstage

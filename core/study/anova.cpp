@@ -13,7 +13,7 @@ using Columns = std::vector<std::vector<double>>;
 
 /// Columns that are 1 where `is(mean, level)`, for levels 1 to count - 1: level 0 is what they are told against.
 template <class Is>
-Columns levels(const Cells& cells, int count, Is is) {
+Columns levels(const CellMeans& cells, int count, Is is) {
   Columns columns;
   for (int level = 1; level < count; ++level) {
     std::vector<double> column;
@@ -47,7 +47,7 @@ struct CellSum {
   double count = 0.0;
 };
 
-std::vector<CellSum> cell_sums(const Study& study, const Cells& cells, int condition) {
+std::vector<CellSum> cell_sums(const Study& study, const CellMeans& cells, int condition) {
   std::vector<CellSum> sums(study.targets.size());
   for (const CellMean& mean : cells.means) {
     if (mean.condition != condition) continue;
@@ -59,7 +59,7 @@ std::vector<CellSum> cell_sums(const Study& study, const Cells& cells, int condi
   return sums;
 }
 
-PairTest pair_test(const Study& study, const Cells& cells, int first, int second, double variance, double df) {
+PairTest pair_test(const Study& study, const CellMeans& cells, int first, int second, double variance, double df) {
   const auto a = cell_sums(study, cells, first);
   const auto b = cell_sums(study, cells, second);
   const double targets = static_cast<double>(a.size());
@@ -89,7 +89,7 @@ void adjust(std::vector<PairTest>& tests) {
 
 }  // namespace
 
-std::optional<Anova> anova_of(const Study& study, const Cells& cells) {
+std::optional<Anova> anova_of(const Study& study, const CellMeans& cells) {
   const int conditions = static_cast<int>(study.conditions.size());
   const Columns level{std::vector<double>(cells.means.size(), 1.0)};
   const Columns a = levels(cells, conditions, [](const CellMean& m, int k) { return m.condition == k; });

@@ -33,6 +33,6 @@ struct Anova {
 };
 
 /// Nothing where a condition has no mean for a target, or where there is no more than one mean for each.
-std::optional<Anova> anova_of(const Study& study, const Cells& cells);
+std::optional<Anova> anova_of(const Study& study, const CellMeans& cells);
 
 }  // namespace focalstage

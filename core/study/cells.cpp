@@ -29,7 +29,7 @@ class Sums {
   std::vector<Sum> sums_;
 };
 
-void add_participant(const Study& study, int participant, Sums& sums, Cells& cells) {
+void add_participant(const Study& study, int participant, Sums& sums, CellMeans& cells) {
   if (!sums.whole()) {
     cells.unfinished.push_back(participant);
     return;
@@ -57,8 +57,8 @@ void add_participant(const Study& study, int participant, Sums& sums, Cells& cel
 
 }  // namespace
 
-Cells cells_of(const Study& study, const std::vector<Response>& responses) {
-  Cells cells;
+CellMeans cells_of(const Study& study, const std::vector<Response>& responses) {
+  CellMeans cells;
   for (int participant = 0; participant < static_cast<int>(study.participants.size()); ++participant) {
     Sums sums(study);
     bool seen = false;

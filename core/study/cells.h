@@ -29,7 +29,7 @@ struct EmptyCell {
 };
 
 /// The means that statistics may use, and what was left out of them and why: nothing goes silently.
-struct Cells {
+struct CellMeans {
   std::vector<CellMean> means;
   std::vector<EmptyCell> empty;
   std::vector<int> unfinished;  ///< participants whose trials are not all there: left out
@@ -38,6 +38,6 @@ struct Cells {
 };
 
 /// Training and spoiled trials are no data. `responses` are of participants of the study, in any order.
-Cells cells_of(const Study& study, const std::vector<Response>& responses);
+CellMeans cells_of(const Study& study, const std::vector<Response>& responses);
 
 }  // namespace focalstage

@@ -62,7 +62,7 @@ std::vector<PassStart> pass_starts(const WilliamsDesign& design, int passes, See
 }
 
 /// To the nanometre, so that tables show the step's decimals and no more.
-double pointer_start(const Pointer& pointer, Seeded& chance) {
+double pointer_start(const StudyPointer& pointer, Seeded& chance) {
   const auto steps = static_cast<std::uint64_t>(std::floor((pointer.to_m - pointer.from_m) / pointer.step_m + 1e-9));
   const double start_m = pointer.from_m + static_cast<double>(chance.below(steps + 1)) * pointer.step_m;
   return std::clamp(std::round(start_m * 1e9) / 1e9, pointer.from_m, pointer.to_m);
@@ -77,7 +77,7 @@ int full_set(const Study& study) {
   return orders * targets.treatments() * rounds;
 }
 
-std::vector<Block> plan_of(const Study& study, int participant) {
+std::vector<TrialBlock> plan_of(const Study& study, int participant) {
   const WilliamsDesign design(static_cast<int>(study.targets.size()));
   const Place place = place_of(study, participant);
   const WilliamsDesign orders(static_cast<int>(study.conditions.size()));
@@ -86,13 +86,13 @@ std::vector<Block> plan_of(const Study& study, int participant) {
   Seeded naming(study.seed, "targets");
   const std::vector<int> target_of = shuffled_indices(design.treatments(), naming);
 
-  std::vector<Block> blocks;
+  std::vector<TrialBlock> blocks;
   for (const int condition : order) {
     const std::string& name = study.conditions[static_cast<std::size_t>(condition)].name;
     Seeded passes(study.seed, "passes " + name);
     const std::string who = study.participants[static_cast<std::size_t>(participant)];
     Seeded own(study.seed, "participant " + who + " " + name);
-    Block block{static_cast<int>(blocks.size()) + 1, condition, {}};
+    TrialBlock block{static_cast<int>(blocks.size()) + 1, condition, {}};
     const auto add = [&](bool training, int target, int repetition) {
       block.trials.push_back(
           {static_cast<int>(block.trials.size()) + 1, training, target, repetition, pointer_start(study.pointer, own)});

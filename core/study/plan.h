@@ -18,12 +18,12 @@ struct Trial {
 };
 
 /// All trials under one condition, in order.
-struct Block {
+struct TrialBlock {
   int number = 0;     ///< from 1
   int condition = 0;  ///< of the study's
   std::vector<Trial> trials;
 
-  bool operator==(const Block&) const = default;
+  bool operator==(const TrialBlock&) const = default;
 };
 
 /// What the participant at `participant` of the study's list does, in order: the same for the same study, always.
@@ -34,7 +34,7 @@ struct Block {
 /// within the passes each target follows each other one equally often. The seed says which target is which of the
 /// design and at which row each pass begins. No target comes twice in a row, also from one pass to the next; only the
 /// training trial is free in that.
-std::vector<Block> plan_of(const Study& study, int participant);
+std::vector<TrialBlock> plan_of(const Study& study, int participant);
 
 /// How many participants make the design balanced: any multiple of it does.
 int full_set(const Study& study);

@@ -9,8 +9,8 @@ namespace {
 constexpr double same_m = 1e-12;
 
 /// What a row has that its trial has not; nothing where they agree.
-std::string difference(const Study& study, const Block& block, const Trial& trial, const Response& row) {
-  const Target& target = study.targets[static_cast<std::size_t>(trial.target)];
+std::string difference(const Study& study, const TrialBlock& block, const Trial& trial, const Response& row) {
+  const StudyTarget& target = study.targets[static_cast<std::size_t>(trial.target)];
   if (row.block != block.number || row.trial != trial.number) {
     return "is trial " + std::to_string(row.trial) + " of block " + std::to_string(row.block) + ", where trial " +
            std::to_string(trial.number) + " of block " + std::to_string(block.number) + " is next";
@@ -26,10 +26,10 @@ std::string difference(const Study& study, const Block& block, const Trial& tria
 
 }  // namespace
 
-Result<Progress> progress_of(const Study& study, const std::vector<Block>& plan,
-                             const std::vector<Response>& responses) {
-  Progress progress;
-  for (const Block& block : plan) progress.of += static_cast<int>(block.trials.size());
+Result<TrialProgress> progress_of(const Study& study, const std::vector<TrialBlock>& plan,
+                                  const std::vector<Response>& responses) {
+  TrialProgress progress;
+  for (const TrialBlock& block : plan) progress.of += static_cast<int>(block.trials.size());
   for (std::size_t k = 0; k < responses.size(); ++k) {
     const Response& row = responses[k];
     const auto wrong = [&](const std::string& what) {
@@ -37,7 +37,7 @@ Result<Progress> progress_of(const Study& study, const std::vector<Block>& plan,
                    "put the file back as it was written, or move it away and run the participant anew"};
     };
     if (progress.finished()) return wrong("comes after the last trial");
-    const Block& block = plan[progress.block];
+    const TrialBlock& block = plan[progress.block];
     const std::string what = difference(study, block, block.trials[progress.trial], row);
     if (!what.empty()) return wrong(what);
     if (row.sitting < progress.sittings) return wrong("is of an earlier sitting than the one before");

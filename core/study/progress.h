@@ -9,7 +9,7 @@
 namespace focalstage {
 
 /// Where a participant goes on.
-struct Progress {
+struct TrialProgress {
   std::size_t block = 0;  ///< of the plan; its size when all is done
   std::size_t trial = 0;  ///< within that block
   int done = 0;           ///< trials answered or given up, training included
@@ -21,7 +21,7 @@ struct Progress {
 
 /// Holds the rows of one participant, in the order they were written, against its plan: each is the trial that was
 /// next, and a spoiled one leaves it next. Fault "study.rows" names the row, the first being 1.
-Result<Progress> progress_of(const Study& study, const std::vector<Block>& plan,
-                             const std::vector<Response>& responses);
+Result<TrialProgress> progress_of(const Study& study, const std::vector<TrialBlock>& plan,
+                                  const std::vector<Response>& responses);
 
 }  // namespace focalstage

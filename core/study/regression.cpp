@@ -16,7 +16,7 @@ std::vector<double> column(const std::vector<CellMean>& means, ValueOf value) {
   return values;
 }
 
-std::vector<CellMean> of_condition(const Cells& cells, int condition) {
+std::vector<CellMean> of_condition(const CellMeans& cells, int condition) {
   std::vector<CellMean> means;
   std::ranges::copy_if(cells.means, std::back_inserter(means),
                        [&](const CellMean& mean) { return mean.condition == condition; });
@@ -27,18 +27,18 @@ double actual(const CellMean& mean) { return mean.actual_m; }
 double estimated(const CellMean& mean) { return mean.estimated_m; }
 double one(const CellMean&) { return 1.0; }
 
-std::optional<Line> line_of(const Cells& cells, int condition) {
+std::optional<FittedLine> line_of(const CellMeans& cells, int condition) {
   const std::vector<CellMean> means = of_condition(cells, condition);
   const auto level = least_squares({column(means, one)}, column(means, estimated));
   const auto fit = least_squares({column(means, one), column(means, actual)}, column(means, estimated));
   if (!level || !fit) return std::nullopt;
   const double r_squared = level->residual_ss > 0.0 ? 1.0 - fit->residual_ss / level->residual_ss : 1.0;
-  return Line{condition, fit->coefficients[1], fit->coefficients[0], r_squared, static_cast<int>(means.size())};
+  return FittedLine{condition, fit->coefficients[1], fit->coefficients[0], r_squared, static_cast<int>(means.size())};
 }
 
 }  // namespace
 
-std::optional<Regression> regression_of(const Study& study, const Cells& cells) {
+std::optional<Regression> regression_of(const Study& study, const CellMeans& cells) {
   const int conditions = static_cast<int>(study.conditions.size());
   Regression regression;
   Columns levels;

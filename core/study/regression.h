@@ -9,7 +9,7 @@
 namespace focalstage {
 
 /// estimated = slope * actual + intercept, over the means of one condition.
-struct Line {
+struct FittedLine {
   int condition = 0;
   double slope = 0.0;
   double intercept_m = 0.0;
@@ -20,7 +20,7 @@ struct Line {
 /// The paper's comparison of conditions by multiple regression (after Swan et al. 2015): do their lines differ in
 /// slope, and where they are given one slope, in intercept?
 struct Regression {
-  std::vector<Line> lines;         ///< each condition by itself
+  std::vector<FittedLine> lines;   ///< each condition by itself
   std::vector<double> parallel_m;  ///< intercepts under the common slope, per condition
   double common_slope = 0.0;
   std::optional<FTest> slopes;      ///< F(k-1, N-2k): N means, k conditions
@@ -29,6 +29,6 @@ struct Regression {
 
 /// Nothing where a condition has means at fewer than two distances. A test is missing where answers vary by nothing
 /// but what the lines explain, or are too few.
-std::optional<Regression> regression_of(const Study& study, const Cells& cells);
+std::optional<Regression> regression_of(const Study& study, const CellMeans& cells);
 
 }  // namespace focalstage

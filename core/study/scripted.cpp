@@ -13,7 +13,7 @@ constexpr int gives_up_every = 7;
 
 bool is_biased_under(const Study& study, int condition) {
   const Condition& asked = study.conditions[static_cast<std::size_t>(condition)];
-  return asked.project.empty() ? condition > 0 : asked.variant == Variant::conventional;
+  return asked.project.empty() ? condition > 0 : asked.variant == ConditionVariant::conventional;
 }
 
 }  // namespace
@@ -31,7 +31,7 @@ Result<ScriptedParticipant> ScriptedParticipant::named(const std::string& name) 
 }
 
 std::optional<double> ScriptedParticipant::answer(const Study& study, const std::string& participant,
-                                                  const Block& block, const Trial& trial) const {
+                                                  const TrialBlock& block, const Trial& trial) const {
   if (gives_up_every_ > 0 && trial.number % gives_up_every_ == 0) return std::nullopt;
   const std::string& condition = study.conditions[static_cast<std::size_t>(block.condition)].name;
   Seeded chance(study.seed, "answer " + participant + " " + condition + " " + std::to_string(trial.number));

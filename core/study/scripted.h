@@ -28,7 +28,7 @@ class ScriptedParticipant {
   const std::string& name() const { return name_; }
 
   /// The answer in metres, within the pointer's range; nothing: gives up.
-  std::optional<double> answer(const Study& study, const std::string& participant, const Block& block,
+  std::optional<double> answer(const Study& study, const std::string& participant, const TrialBlock& block,
                                const Trial& trial) const;
 
   /// To every question.

@@ -65,8 +65,8 @@ Status check_conditions(const Study& study) {
 }
 
 Status check_target(const Study& study, std::size_t i) {
-  const Target& target = study.targets[i];
-  const Pointer& pointer = study.pointer;
+  const StudyTarget& target = study.targets[i];
+  const StudyPointer& pointer = study.pointer;
   if (target.cue.empty() == (target.frame < 0)) {
     return wrong(item("targets", i), "names both a cue and a frame, or neither", "name one of them");
   }
@@ -82,7 +82,7 @@ Status check_target(const Study& study, std::size_t i) {
   return {};
 }
 
-Status check_pointer(const Pointer& pointer) {
+Status check_pointer(const StudyPointer& pointer) {
   if (!(std::isfinite(pointer.from_m) && std::isfinite(pointer.to_m) && pointer.from_m >= 0.0 &&
         pointer.to_m > pointer.from_m)) {
     return wrong("/pointer", "from_m must be 0 or more and to_m beyond it", "name the ends of the slider in metres");
@@ -95,7 +95,9 @@ Status check_pointer(const Pointer& pointer) {
 
 }  // namespace
 
-const char* name_of(Variant variant) { return variant == Variant::conventional ? "conventional" : "multifocal"; }
+const char* name_of(ConditionVariant variant) {
+  return variant == ConditionVariant::conventional ? "conventional" : "multifocal";
+}
 
 const char* name_of(MissingRule rule) {
   return rule == MissingRule::complete_participants ? "complete-participants" : "answered-repetitions";
@@ -110,11 +112,11 @@ Status check(const Study& study) {
   for (std::size_t i = 0; i < study.targets.size(); ++i) {
     if (Status usable = check_target(study, i); !usable) return usable;
   }
-  const auto target_name = [](const Target& t) -> const std::string& { return t.name; };
+  const auto target_name = [](const StudyTarget& t) -> const std::string& { return t.name; };
   if (Status named = check_names(study.targets, "targets", target_name); !named) return named;
   if (study.repetitions < 1) return wrong("/repetitions", "must be 1 or more", "the paper's study has 4");
   if (study.training_trials < 0) return wrong("/training_trials", "must be 0 or more", "the paper's study has 1");
-  return check_names(study.questions, "questions", [](const Question& q) -> const std::string& { return q.name; });
+  return check_names(study.questions, "questions", [](const StudyQuestion& q) -> const std::string& { return q.name; });
 }
 
 Result<int> participant_index(const Study& study, const std::string& participant) {

@@ -9,48 +9,48 @@
 namespace focalstage {
 
 /// What a condition makes of its project. A show that is there already is shown as it is.
-enum class Variant {
+enum class ConditionVariant {
   multifocal,   ///< the project's own slices: every target in focus where it stands
   conventional  ///< one slice at 0 D: right to both eyes together, but in focus on the screen
 };
 
-const char* name_of(Variant variant);
+const char* name_of(ConditionVariant variant);
 
 /// One way of showing the targets; one block of trials per participant.
 struct Condition {
   std::string name;
   std::string project;  ///< a NAME.focal or its folder, relative to the study file; empty where `show` is named
   std::string show;     ///< a SHOW.h5, relative to the study file
-  Variant variant = Variant::multifocal;  ///< of `project`
+  ConditionVariant variant = ConditionVariant::multifocal;  ///< of `project`
 
   bool operator==(const Condition&) const = default;
 };
 
 /// What is to be matched, and how far from the lens centre it truly stands.
-struct Target {
+struct StudyTarget {
   std::string name;
   std::string cue;  ///< of the shows; empty where `frame` says which
   int frame = -1;   ///< of the shows
   double actual_m = 0.0;
 
-  bool operator==(const Target&) const = default;
+  bool operator==(const StudyTarget&) const = default;
 };
 
 /// The pointer that a participant moves: where its reading may lie.
-struct Pointer {
+struct StudyPointer {
   double from_m = 0.0;
   double to_m = 1.0;
   double step_m = 0.001;
 
-  bool operator==(const Pointer&) const = default;
+  bool operator==(const StudyPointer&) const = default;
 };
 
 /// Asked once, after the last block; answered with yes or no.
-struct Question {
+struct StudyQuestion {
   std::string name;
   std::string text;
 
-  bool operator==(const Question&) const = default;
+  bool operator==(const StudyQuestion&) const = default;
 };
 
 /// What becomes of a participant for whom all repetitions of one condition and target were given up.
@@ -67,12 +67,12 @@ struct Study {
   std::uint64_t seed = 1;
   std::vector<std::string> participants;
   std::vector<Condition> conditions;
-  std::vector<Target> targets;
+  std::vector<StudyTarget> targets;
   int repetitions = 4;
   int training_trials = 1;  ///< at the start of each block
-  Pointer pointer;
+  StudyPointer pointer;
   MissingRule missing = MissingRule::answered_repetitions;
-  std::vector<Question> questions;
+  std::vector<StudyQuestion> questions;
 
   bool operator==(const Study&) const = default;
 };

@@ -17,7 +17,7 @@ fs::path answers_in(const fs::path& folder) {
   return fs::is_directory(folder / trials_answers_folder, problem) ? folder / trials_answers_folder : folder;
 }
 
-Status write_report(const Report& made, const fs::path& file) {
+Status write_report(const StudyReport& made, const fs::path& file) {
   const fs::path plot = fs::path(file).replace_extension(".svg");
   if (plot == file) return Fault{"usage", file.string(), "is the picture's own name", "name a .md file"};
   if (Status written = write_file_atomically(plot, report_svg(made)); !written) return written;
@@ -29,7 +29,7 @@ Status write_report(const Report& made, const fs::path& file) {
 ExitStatus run_trials_report(const TrialsOptions& options) {
   auto answers = load_answers(answers_in(options.folder));
   if (!answers) return report(answers.fault());
-  const Report made = report_of(std::move(*answers));
+  const StudyReport made = report_of(std::move(*answers));
   if (!options.out.empty()) {
     if (const Status written = write_report(made, options.out); !written) {
       const ExitStatus status = report(written.fault());

@@ -6,6 +6,7 @@
 #include "core/study/scripted.h"
 #include "editor/cli/interrupt.h"
 #include "editor/cli/output.h"
+#include "editor/cli/progress.h"
 #include "editor/cli/trials_actions.h"
 #include "editor/trials/key_seat.h"
 #include "editor/trials/line_seat.h"
@@ -90,6 +91,15 @@ void print_end(const TrialsOptions& options, const SittingEnd& end, const fs::pa
   std::printf(end.progress.finished() && !end.paused ? "\n" : "; go on with --resume\n");
 }
 
+/// Says how far it has come, but not with which condition: who sits at the screen stays blind.
+Result<std::vector<ReadyCondition>> make_shows(const LoadedStudy& loaded, const fs::path& shows,
+                                               const std::optional<double>& interpupillary_mm,
+                                               const std::stop_token& stop) {
+  Progress bar("Preparing the shows", Progress::Style::automatic);
+  const auto tell = [&](int done, int of) { bar.update(done, of, "frame"); };
+  return make_conditions(loaded.study, loaded.file.parent_path(), shows, interpupillary_mm, tell, stop);
+}
+
 Result<SittingEnd> sit(const TrialsOptions& options, const LoadedStudy& loaded, const fs::path& out,
                        const std::stop_token& stop) {
   const auto seat = seat_of(options, stop);
@@ -100,8 +110,7 @@ Result<SittingEnd> sit(const TrialsOptions& options, const LoadedStudy& loaded, 
     std::fprintf(stderr, "focalstage: a row was being written when the power went; its trial is repeated\n");
   const auto interpupillary_mm = interpupillary_of(options, *log);
   if (!interpupillary_mm) return interpupillary_mm.fault();
-  const fs::path shows = out / "shows" / options.participant;
-  auto conditions = make_conditions(loaded.study, loaded.file.parent_path(), shows, *interpupillary_mm, stop);
+  auto conditions = make_shows(loaded, out / "shows" / options.participant, *interpupillary_mm, stop);
   if (!conditions) return conditions.fault();
   if (Status same = check_all_shows(loaded.study, *conditions, out); !same) return same.fault();
   const Sitting sitting{loaded.study, options.participant, std::move(*conditions), options.one_block};

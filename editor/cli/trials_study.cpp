@@ -27,9 +27,9 @@ Status make_new(const TrialsOptions& options) {
   return write_file_atomically(folder / study_file_name, study_text(example_study()));
 }
 
-Value plan_value(const Study& study, const std::vector<Block>& plan) {
+Value plan_value(const Study& study, const std::vector<TrialBlock>& plan) {
   Value::Array blocks;
-  for (const Block& block : plan) {
+  for (const TrialBlock& block : plan) {
     Value::Array trials;
     for (const Trial& trial : block.trials) {
       Value item;
@@ -51,9 +51,9 @@ Value plan_value(const Study& study, const std::vector<Block>& plan) {
   return value;
 }
 
-std::string plan_text(const Study& study, const std::vector<Block>& plan) {
+std::string plan_text(const Study& study, const std::vector<TrialBlock>& plan) {
   std::vector<std::vector<std::string>> rows;
-  for (const Block& block : plan) {
+  for (const TrialBlock& block : plan) {
     for (const Trial& trial : block.trials) {
       rows.push_back({std::to_string(block.number), study.conditions[static_cast<std::size_t>(block.condition)].name,
                       std::to_string(trial.number), trial.training ? "training" : std::to_string(trial.repetition),
@@ -79,7 +79,7 @@ ExitStatus run_trials_plan(const TrialsOptions& options) {
   if (!loaded) return report(loaded.fault());
   const auto index = participant_index(loaded->study, options.participant);
   if (!index) return report(index.fault());
-  const std::vector<Block> plan = plan_of(loaded->study, *index);
+  const std::vector<TrialBlock> plan = plan_of(loaded->study, *index);
   if (options.json) {
     print_json(plan_value(loaded->study, plan));
   } else {

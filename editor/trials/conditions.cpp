@@ -29,7 +29,8 @@ Status check_findings(const std::vector<Finding>& findings, const Condition& con
 }
 
 Status compile_condition(const Study& study, std::size_t index, const fs::path& folder, const fs::path& show,
-                         const std::optional<double>& interpupillary_mm, const std::stop_token& stop) {
+                         const std::optional<double>& interpupillary_mm, const FrameProgress& progress,
+                         const std::stop_token& stop) {
   const Condition& condition = study.conditions[index];
   auto source = open_project(folder / condition.project);
   if (!source) return source.fault();
@@ -47,13 +48,12 @@ Status compile_condition(const Study& study, std::size_t index, const fs::path& 
   }
   CompileJob job;
   job.show = show;
-  const auto compiled = compile_show(
-      *source, job, [](int, int) {}, stop);
+  const auto compiled = compile_show(*source, job, progress, stop);
   if (!compiled) return compiled.fault();
   return check_findings(compiled->findings, condition, index);
 }
 
-Result<ShownTarget> find_target(const ShowHeader& header, const Target& target, std::size_t index,
+Result<ShownTarget> find_target(const ShowHeader& header, const StudyTarget& target, std::size_t index,
                                 const fs::path& show) {
   const auto shown = std::ranges::find_if(header.cues, [&](const ShowCue& cue) {
     return target.cue.empty() ? cue.frame == target.frame : cue.name == target.cue;
@@ -86,8 +86,8 @@ Result<ReadyCondition> look_into(const Study& study, const fs::path& show, const
 
 }  // namespace
 
-std::vector<Edit> variant_edits(const Project& project, Variant variant) {
-  if (variant == Variant::multifocal) return {};
+std::vector<Edit> variant_edits(const Project& project, ConditionVariant variant) {
+  if (variant == ConditionVariant::multifocal) return {};
   std::vector<Edit> edits{{Edit::Kind::set, "slices", "", "powers_d", Value::Array{0.0}}};
   for (const Object& object : project.objects) {
     Value depth;
@@ -100,7 +100,7 @@ std::vector<Edit> variant_edits(const Project& project, Variant variant) {
 
 std::vector<Edit> cue_edits(const Project& project, const Study& study) {
   std::vector<Edit> edits;
-  for (const Target& target : study.targets) {
+  for (const StudyTarget& target : study.targets) {
     if (!target.cue.empty() || target.frame >= project.frames.count) continue;
     const double time_s = target.frame / project.frames.rate_hz;
     const auto is_there = [&](const Cue& cue) { return std::abs(cue.time_s - time_s) * project.frames.rate_hz < 0.5; };
@@ -115,7 +115,7 @@ std::vector<Edit> cue_edits(const Project& project, const Study& study) {
 
 Result<std::vector<ReadyCondition>> make_conditions(const Study& study, const fs::path& folder, const fs::path& shows,
                                                     const std::optional<double>& interpupillary_mm,
-                                                    const std::stop_token& stop) {
+                                                    const FrameProgress& progress, const std::stop_token& stop) {
   std::error_code problem;
   fs::create_directories(shows, problem);
   if (problem) return Fault{"file.unwritable", shows.string(), problem.message(), "choose another folder with --out"};
@@ -125,7 +125,7 @@ Result<std::vector<ReadyCondition>> make_conditions(const Study& study, const fs
     fs::path show = folder / condition.show;
     if (condition.show.empty()) {
       show = shows / ("condition-" + std::to_string(k + 1) + ".h5");
-      const Status compiled = compile_condition(study, k, folder, show, interpupillary_mm, stop);
+      const Status compiled = compile_condition(study, k, folder, show, interpupillary_mm, progress, stop);
       if (!compiled) return compiled.fault();
     }
     auto ready = look_into(study, show, stop);

@@ -9,8 +9,8 @@ Study example_study() {
   for (const char* id : {"P01", "P02", "P03", "P04", "P05", "P06", "P07", "P08", "P09", "P10"}) {
     study.participants.emplace_back(id);
   }
-  study.conditions = {{"multifocal", example_project, "", Variant::multifocal},
-                      {"conventional", example_project, "", Variant::conventional}};
+  study.conditions = {{"multifocal", example_project, "", ConditionVariant::multifocal},
+                      {"conventional", example_project, "", ConditionVariant::conventional}};
   study.targets = {{"333 mm", "333 mm", -1, 0.333333},
                    {"364 mm", "364 mm", -1, 0.364},
                    {"400 mm", "400 mm", -1, 0.4},

@@ -25,7 +25,7 @@ std::string mm(double length_m) {
 
 }  // namespace
 
-Result<char> Input::next(const WhileWaiting& check) {
+Result<char> SeatInput::next(const WhileWaiting& check) {
   for (;;) {
     if (stop_.stop_requested()) return stopped();
     if (check && Clock::now() - checked_ > check_every) {
@@ -43,7 +43,7 @@ Result<char> Input::next(const WhileWaiting& check) {
   }
 }
 
-Result<std::string> Input::line(const WhileWaiting& check) {
+Result<std::string> SeatInput::line(const WhileWaiting& check) {
   std::string text;
   for (;;) {
     const auto byte = next(check);
@@ -55,7 +55,7 @@ Result<std::string> Input::line(const WhileWaiting& check) {
   }
 }
 
-void Input::forget() { ::tcflush(file_, TCIFLUSH); }
+void SeatInput::forget() { ::tcflush(file_, TCIFLUSH); }
 
 KeyByKey::KeyByKey(int terminal) : terminal_(terminal) {
   if (::tcgetattr(terminal_, &before_) != 0) return;
@@ -70,7 +70,7 @@ KeyByKey::~KeyByKey() {
   if (changed_) ::tcsetattr(terminal_, TCSADRAIN, &before_);
 }
 
-Result<double> reading_from(const std::string& text, const Pointer& pointer) {
+Result<double> reading_from(const std::string& text, const StudyPointer& pointer) {
   const auto begin = text.find_first_not_of(" \t");
   const Fault unclear{"trials.reading", "answer", "\"" + text + "\" is no distance", "type millimetres, such as 412"};
   if (begin == std::string::npos) return unclear;

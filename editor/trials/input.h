@@ -12,9 +12,9 @@
 namespace focalstage {
 
 /// Bytes from a keyboard or a pipe, one at a time, while the rig is watched.
-class Input {
+class SeatInput {
  public:
-  Input(int file, std::stop_token stop) : file_(file), stop_(std::move(stop)) {}
+  SeatInput(int file, std::stop_token stop) : file_(file), stop_(std::move(stop)) {}
 
   /// The next byte. Looks at the rig four times a second meanwhile. Faults: what `check` says, "trials.stopped",
   /// "trials.input-ended".
@@ -50,6 +50,6 @@ class KeyByKey {
 
 /// "412", "412.5 mm": a reading in metres within the pointer's range. Fault "trials.reading" says what is wrong with
 /// it.
-Result<double> reading_from(const std::string& text, const Pointer& pointer);
+Result<double> reading_from(const std::string& text, const StudyPointer& pointer);
 
 }  // namespace focalstage

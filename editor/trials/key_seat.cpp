@@ -24,12 +24,14 @@ void show(const std::string& text) {
   std::fflush(stdout);
 }
 
-Key key_of(const std::string& sequence) {
-  if (sequence == "\x1b[A" || sequence == "\x1b[C" || sequence == "\x1bOA" || sequence == "\x1bOC") return Key::farther;
-  if (sequence == "\x1b[B" || sequence == "\x1b[D" || sequence == "\x1bOB" || sequence == "\x1bOD") return Key::nearer;
-  if (sequence == "\x1b[5~") return Key::much_farther;
-  if (sequence == "\x1b[6~") return Key::much_nearer;
-  return Key::none;
+SeatKey key_of(const std::string& sequence) {
+  if (sequence == "\x1b[A" || sequence == "\x1b[C" || sequence == "\x1bOA" || sequence == "\x1bOC")
+    return SeatKey::farther;
+  if (sequence == "\x1b[B" || sequence == "\x1b[D" || sequence == "\x1bOB" || sequence == "\x1bOD")
+    return SeatKey::nearer;
+  if (sequence == "\x1b[5~") return SeatKey::much_farther;
+  if (sequence == "\x1b[6~") return SeatKey::much_nearer;
+  return SeatKey::none;
 }
 
 bool ends_sequence(const std::string& sequence) {
@@ -47,13 +49,13 @@ KeyPress KeyDecoder::take(char byte) {
   if (!sequence_.empty()) {
     sequence_ += byte;
     if (!ends_sequence(sequence_)) return {};
-    const Key key = key_of(sequence_);
+    const SeatKey key = key_of(sequence_);
     sequence_.clear();
     return {key, 0};
   }
-  if (byte == '\r' || byte == '\n') return {Key::enter, 0};
-  if (byte == '\x7f' || byte == '\b') return {Key::erase, 0};
-  return {Key::character, byte};
+  if (byte == '\r' || byte == '\n') return {SeatKey::enter, 0};
+  if (byte == '\x7f' || byte == '\b') return {SeatKey::erase, 0};
+  return {SeatKey::character, byte};
 }
 
 void PointerEntry::move(double steps) {
@@ -64,22 +66,22 @@ void PointerEntry::move(double steps) {
 
 bool PointerEntry::take(const KeyPress& press) {
   switch (press.key) {
-    case Key::farther:
+    case SeatKey::farther:
       move(few_steps);
       return true;
-    case Key::nearer:
+    case SeatKey::nearer:
       move(-few_steps);
       return true;
-    case Key::much_farther:
+    case SeatKey::much_farther:
       move(many_steps);
       return true;
-    case Key::much_nearer:
+    case SeatKey::much_nearer:
       move(-many_steps);
       return true;
-    case Key::erase:
+    case SeatKey::erase:
       if (!typed_.empty()) typed_.pop_back();
       return true;
-    case Key::character:
+    case SeatKey::character:
       if ((press.character < '0' || press.character > '9') && press.character != '.') return false;
       if (typed_.size() < longest_typed) typed_ += press.character;
       return true;
@@ -99,31 +101,31 @@ std::string PointerEntry::text() const { return typed_.empty() ? reading_text(re
 
 std::string KeySeat::kind() const { return human_kind; }
 
-void KeySeat::begin_block(const std::vector<Block>& plan, const Block& block) {
+void KeySeat::begin_block(const std::vector<TrialBlock>& plan, const TrialBlock& block) {
   say(block_text(plan, block));
   say("Arrows and page keys move the reading, digits type it in mm, Enter confirms; g gives up, q pauses.");
 }
 
-Result<Choice> KeySeat::enter_or_q(const WhileWaiting& check) {
+Result<TrialChoice> KeySeat::enter_or_q(const WhileWaiting& check) {
   KeyDecoder decoder;
   for (;;) {
     const auto byte = input_.next(check);
     if (!byte) return byte.fault();
     const KeyPress press = decoder.take(*byte);
-    if (press.key == Key::enter) return Choice::go_on;
-    if (press.key == Key::character && press.character == 'q') return Choice::pause;
+    if (press.key == SeatKey::enter) return TrialChoice::go_on;
+    if (press.key == SeatKey::character && press.character == 'q') return TrialChoice::pause;
   }
 }
 
 void KeySeat::notice(const std::string& what) { say(printable(what)); }
 
-Result<Choice> KeySeat::ready(const TrialInPlan& at, const WhileWaiting& check) {
+Result<TrialChoice> KeySeat::ready(const TrialInPlan& at, const WhileWaiting& check) {
   input_.forget();
   show(trial_text(at) + ". Enter when it stands there.");
   return enter_or_q(check);
 }
 
-Result<Answer> KeySeat::answer(const TrialInPlan& at, const WhileWaiting& check) {
+Result<TrialAnswer> KeySeat::answer(const TrialInPlan& at, const WhileWaiting& check) {
   PointerEntry entry(at.study.pointer, at.trial.pointer_start_m);
   KeyDecoder decoder;
   for (;;) {
@@ -133,16 +135,16 @@ Result<Answer> KeySeat::answer(const TrialInPlan& at, const WhileWaiting& check)
     if (!byte) return byte.fault();
     const KeyPress press = decoder.take(*byte);
     if (entry.take(press)) continue;
-    if (press.key == Key::character && press.character == 'g') return Answer{Answer::Kind::gave_up, 0.0};
-    if (press.key == Key::character && press.character == 'q') return Answer{Answer::Kind::pause, 0.0};
-    if (press.key != Key::enter) continue;
+    if (press.key == SeatKey::character && press.character == 'g') return TrialAnswer{TrialAnswer::Kind::gave_up, 0.0};
+    if (press.key == SeatKey::character && press.character == 'q') return TrialAnswer{TrialAnswer::Kind::pause, 0.0};
+    if (press.key != SeatKey::enter) continue;
     const auto reading_m = entry.confirmed();
-    if (reading_m) return Answer{Answer::Kind::matched, *reading_m};
+    if (reading_m) return TrialAnswer{TrialAnswer::Kind::matched, *reading_m};
     say(complaint(reading_m.fault()));
   }
 }
 
-Result<Choice> KeySeat::trouble(const std::string& what) {
+Result<TrialChoice> KeySeat::trouble(const std::string& what) {
   say(printable(what));
   input_.forget();
   show("Enter goes on and lets the rig be lit again, q pauses.");

@@ -5,10 +5,10 @@
 namespace focalstage {
 
 /// What a key means while a trial waits for its answer.
-enum class Key { none, enter, farther, nearer, much_farther, much_nearer, erase, character };
+enum class SeatKey { none, enter, farther, nearer, much_farther, much_nearer, erase, character };
 
 struct KeyPress {
-  Key key = Key::none;
+  SeatKey key = SeatKey::none;
   char character = 0;
 };
 
@@ -24,7 +24,7 @@ class KeyDecoder {
 /// A reading being made: moved by keys, or typed.
 class PointerEntry {
  public:
-  PointerEntry(const Pointer& pointer, double start_m) : pointer_(pointer), reading_m_(start_m) {}
+  PointerEntry(const StudyPointer& pointer, double start_m) : pointer_(pointer), reading_m_(start_m) {}
 
   /// True: the key was one of ours.
   bool take(const KeyPress& press);
@@ -38,7 +38,7 @@ class PointerEntry {
  private:
   void move(double steps);
 
-  Pointer pointer_;
+  StudyPointer pointer_;
   double reading_m_;
   bool moved_ = false;
   std::string typed_;
@@ -50,19 +50,19 @@ class KeySeat final : public TrialParticipant {
   KeySeat(int terminal, std::stop_token stop) : keys_(terminal), input_(terminal, std::move(stop)) {}
 
   std::string kind() const override;
-  void begin_block(const std::vector<Block>& plan, const Block& block) override;
+  void begin_block(const std::vector<TrialBlock>& plan, const TrialBlock& block) override;
   void notice(const std::string& what) override;
-  Result<Choice> ready(const TrialInPlan& at, const WhileWaiting& check) override;
-  Result<Answer> answer(const TrialInPlan& at, const WhileWaiting& check) override;
-  Result<Choice> trouble(const std::string& what) override;
+  Result<TrialChoice> ready(const TrialInPlan& at, const WhileWaiting& check) override;
+  Result<TrialAnswer> answer(const TrialInPlan& at, const WhileWaiting& check) override;
+  Result<TrialChoice> trouble(const std::string& what) override;
   bool lifts_darkness() const override { return true; }
   Result<std::optional<bool>> question(const std::string& text) override;
 
  private:
-  Result<Choice> enter_or_q(const WhileWaiting& check);
+  Result<TrialChoice> enter_or_q(const WhileWaiting& check);
 
   KeyByKey keys_;
-  Input input_;
+  SeatInput input_;
 };
 
 }  // namespace focalstage

@@ -17,32 +17,34 @@ void say(const std::string& text) {
 
 std::string LineSeat::kind() const { return human_kind; }
 
-void LineSeat::begin_block(const std::vector<Block>& plan, const Block& block) { say(block_text(plan, block)); }
+void LineSeat::begin_block(const std::vector<TrialBlock>& plan, const TrialBlock& block) {
+  say(block_text(plan, block));
+}
 
 void LineSeat::notice(const std::string& what) { say(printable(what)); }
 
-Result<Choice> LineSeat::ready(const TrialInPlan&, const WhileWaiting&) { return Choice::go_on; }
+Result<TrialChoice> LineSeat::ready(const TrialInPlan&, const WhileWaiting&) { return TrialChoice::go_on; }
 
-Result<Answer> LineSeat::answer(const TrialInPlan& at, const WhileWaiting& check) {
+Result<TrialAnswer> LineSeat::answer(const TrialInPlan& at, const WhileWaiting& check) {
   say(trial_text(at) + ": mm, g to give up, q to pause");
   for (;;) {
     const auto line = input_.line(check);
     if (!line) return line.fault();
-    if (*line == "g") return Answer{Answer::Kind::gave_up, 0.0};
-    if (*line == "q") return Answer{Answer::Kind::pause, 0.0};
+    if (*line == "g") return TrialAnswer{TrialAnswer::Kind::gave_up, 0.0};
+    if (*line == "q") return TrialAnswer{TrialAnswer::Kind::pause, 0.0};
     const auto reading_m = reading_from(*line, at.study.pointer);
-    if (reading_m) return Answer{Answer::Kind::matched, *reading_m};
+    if (reading_m) return TrialAnswer{TrialAnswer::Kind::matched, *reading_m};
     say(complaint(reading_m.fault()));
   }
 }
 
-Result<Choice> LineSeat::trouble(const std::string& what) {
+Result<TrialChoice> LineSeat::trouble(const std::string& what) {
   say(what + " An empty line goes on and lets the rig be lit again, q pauses.");
   for (;;) {
     const auto line = input_.line({});
     if (!line) return line.fault();
-    if (line->empty()) return Choice::go_on;
-    if (*line == "q") return Choice::pause;
+    if (line->empty()) return TrialChoice::go_on;
+    if (*line == "q") return TrialChoice::pause;
     say("An empty line, or q.");
   }
 }

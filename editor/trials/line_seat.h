@@ -11,16 +11,16 @@ class LineSeat final : public TrialParticipant {
   LineSeat(int input, std::stop_token stop) : input_(input, std::move(stop)) {}
 
   std::string kind() const override;
-  void begin_block(const std::vector<Block>& plan, const Block& block) override;
+  void begin_block(const std::vector<TrialBlock>& plan, const TrialBlock& block) override;
   void notice(const std::string& what) override;
-  Result<Choice> ready(const TrialInPlan& at, const WhileWaiting& check) override;
-  Result<Answer> answer(const TrialInPlan& at, const WhileWaiting& check) override;
-  Result<Choice> trouble(const std::string& what) override;
+  Result<TrialChoice> ready(const TrialInPlan& at, const WhileWaiting& check) override;
+  Result<TrialAnswer> answer(const TrialInPlan& at, const WhileWaiting& check) override;
+  Result<TrialChoice> trouble(const std::string& what) override;
   bool lifts_darkness() const override { return true; }
   Result<std::optional<bool>> question(const std::string& text) override;
 
  private:
-  Input input_;
+  SeatInput input_;
 };
 
 }  // namespace focalstage

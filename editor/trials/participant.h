@@ -14,15 +14,15 @@ namespace focalstage {
 struct TrialInPlan {
   const Study& study;
   const std::string& participant;
-  const std::vector<Block>& plan;
-  const Block& block;
+  const std::vector<TrialBlock>& plan;
+  const TrialBlock& block;
   const Trial& trial;
 };
 
-enum class Choice { go_on, pause };
+enum class TrialChoice { go_on, pause };
 
 /// How a trial ended.
-struct Answer {
+struct TrialAnswer {
   enum class Kind { matched, gave_up, pause };
   Kind kind = Kind::matched;
   double response_m = 0.0;
@@ -41,19 +41,19 @@ class TrialParticipant {
   virtual std::string kind() const = 0;
 
   /// A part of a block begins.
-  virtual void begin_block(const std::vector<Block>& plan, const Block& block) = 0;
+  virtual void begin_block(const std::vector<TrialBlock>& plan, const TrialBlock& block) = 0;
 
   /// Something to be known, to which nothing need be answered.
   virtual void notice(const std::string& what) = 0;
 
   /// In the dark: the pointer is put to where the trial wants it.
-  virtual Result<Choice> ready(const TrialInPlan& at, const WhileWaiting& check) = 0;
+  virtual Result<TrialChoice> ready(const TrialInPlan& at, const WhileWaiting& check) = 0;
 
   /// In the target's light.
-  virtual Result<Answer> answer(const TrialInPlan& at, const WhileWaiting& check) = 0;
+  virtual Result<TrialAnswer> answer(const TrialInPlan& at, const WhileWaiting& check) = 0;
 
   /// The rig failed; returns when it is to be tried again.
-  virtual Result<Choice> trouble(const std::string& what) = 0;
+  virtual Result<TrialChoice> trouble(const std::string& what) = 0;
 
   /// Whether going on after trouble means that a latched darkness may end: only a person may say so.
   virtual bool lifts_darkness() const = 0;

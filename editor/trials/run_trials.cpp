@@ -23,7 +23,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 class Run {
  public:
   Run(const Sitting& sitting, AnswerLog& log, TrialRig& rig, TrialParticipant& participant, std::stop_token stop,
-      std::vector<Block> plan, Progress progress)
+      std::vector<TrialBlock> plan, TrialProgress progress)
       : sitting_(sitting),
         log_(log),
         rig_(rig),
@@ -36,17 +36,17 @@ class Run {
   Result<SittingEnd> go();
 
  private:
-  Result<Choice> block();
-  Result<Choice> set_up(std::optional<std::string> trouble = std::nullopt);
-  Result<Choice> mend(const Fault& fault, bool repeats);
+  Result<TrialChoice> block();
+  Result<TrialChoice> set_up(std::optional<std::string> trouble = std::nullopt);
+  Result<TrialChoice> mend(const Fault& fault, bool repeats);
   bool waits_for_lease(const Fault& fault);
-  Result<Choice> trial();
-  Result<Choice> lit_trial(const TrialInPlan& at);
-  Status write(const TrialInPlan& at, const Answer& answer, const std::string& spoiled, Clock::time_point lit_at);
-  Result<Choice> questions();
+  Result<TrialChoice> trial();
+  Result<TrialChoice> lit_trial(const TrialInPlan& at);
+  Status write(const TrialInPlan& at, const TrialAnswer& answer, const std::string& spoiled, Clock::time_point lit_at);
+  Result<TrialChoice> questions();
   void advance();
 
-  const Block& current() const { return plan_[progress_.block]; }
+  const TrialBlock& current() const { return plan_[progress_.block]; }
   const ReadyCondition& condition() const { return sitting_.conditions[static_cast<std::size_t>(current().condition)]; }
 
   const Sitting& sitting_;
@@ -54,8 +54,8 @@ class Run {
   TrialRig& rig_;
   TrialParticipant& participant_;
   std::stop_token stop_;
-  std::vector<Block> plan_;
-  Progress progress_;
+  std::vector<TrialBlock> plan_;
+  TrialProgress progress_;
   int sitting_number_;
   int spoiled_ = 0;
   bool was_ready_ = false;
@@ -84,17 +84,17 @@ bool Run::waits_for_lease(const Fault& fault) {
 
 /// Connects and prepares the block's show. Where the rig is in trouble, asks for help until it works; the first time,
 /// only for a darkness that a person may end: a rig that is not there is nothing to wait for.
-Result<Choice> Run::set_up(std::optional<std::string> trouble) {
+Result<TrialChoice> Run::set_up(std::optional<std::string> trouble) {
   for (;;) {
     if (trouble) {
       const auto choice = participant_.trouble(*trouble);
-      if (!choice || *choice == Choice::pause) return choice;
+      if (!choice || *choice == TrialChoice::pause) return choice;
     }
     Status ready = rig_.connect(trouble && participant_.lifts_darkness());
     if (ready) ready = rig_.prepare(condition(), stop_);
     if (ready) {
       was_ready_ = true;
-      return Choice::go_on;
+      return TrialChoice::go_on;
     }
     if (stop_.stop_requested()) return stopped();
     const Fault& fault = ready.fault();
@@ -107,15 +107,16 @@ Result<Choice> Run::set_up(std::optional<std::string> trouble) {
 }
 
 /// After a fault of the rig: says so, and sets up anew once somebody saw to it.
-Result<Choice> Run::mend(const Fault& fault, bool repeats) {
+Result<TrialChoice> Run::mend(const Fault& fault, bool repeats) {
   if (!is_of_rig(fault)) return fault;
-  if (progress_.finished()) return Choice::go_on;
+  if (progress_.finished()) return TrialChoice::go_on;
   std::string trouble = "The rig failed: " + describe(fault) + ".";
   if (repeats) trouble += " This trial does not count and will be repeated.";
   return set_up(std::move(trouble));
 }
 
-Status Run::write(const TrialInPlan& at, const Answer& answer, const std::string& spoiled, Clock::time_point lit_at) {
+Status Run::write(const TrialInPlan& at, const TrialAnswer& answer, const std::string& spoiled,
+                  Clock::time_point lit_at) {
   Response row;
   row.participant = sitting_.participant;
   row.kind = participant_.kind();
@@ -127,7 +128,7 @@ Status Run::write(const TrialInPlan& at, const Answer& answer, const std::string
   row.repetition = at.trial.repetition;
   row.actual_m = sitting_.study.targets[static_cast<std::size_t>(at.trial.target)].actual_m;
   row.pointer_start_m = at.trial.pointer_start_m;
-  row.gave_up = answer.kind == Answer::Kind::gave_up;
+  row.gave_up = answer.kind == TrialAnswer::Kind::gave_up;
   row.response_m = answer.response_m;
   row.spoiled = spoiled;
   row.sitting = sitting_number_;
@@ -141,12 +142,13 @@ Status Run::write(const TrialInPlan& at, const Answer& answer, const std::string
 }
 
 /// From light to answer. A fault of the rig comes back as such once the trial is marked.
-Result<Choice> Run::lit_trial(const TrialInPlan& at) {
+Result<TrialChoice> Run::lit_trial(const TrialInPlan& at) {
   const auto lit_at = Clock::now();
   Status shown = rig_.show(condition().targets[static_cast<std::size_t>(at.trial.target)]);
-  Result<Answer> answer = shown ? participant_.answer(at, [&] { return rig_.check(); }) : Result<Answer>(shown.fault());
+  Result<TrialAnswer> answer =
+      shown ? participant_.answer(at, [&] { return rig_.check(); }) : Result<TrialAnswer>(shown.fault());
   // What happened since the last look: an answer counts only if its light was there to the end.
-  if (answer && answer->kind != Answer::Kind::pause) {
+  if (answer && answer->kind != TrialAnswer::Kind::pause) {
     if (Status still = rig_.check(); !still) answer = still.fault();
   }
   if (!answer) {
@@ -154,62 +156,62 @@ Result<Choice> Run::lit_trial(const TrialInPlan& at) {
     if (Status marked = write(at, {}, answer.fault().code, lit_at); !marked) return marked.fault();
     return answer.fault();
   }
-  const bool pause = answer->kind == Answer::Kind::pause;
+  const bool pause = answer->kind == TrialAnswer::Kind::pause;
   if (Status written = write(at, *answer, pause ? "paused" : "", lit_at); !written) return written.fault();
-  if (pause) return Choice::pause;
+  if (pause) return TrialChoice::pause;
   advance();
-  return Choice::go_on;
+  return TrialChoice::go_on;
 }
 
-Result<Choice> Run::trial() {
-  const Block& block = current();
+Result<TrialChoice> Run::trial() {
+  const TrialBlock& block = current();
   const TrialInPlan at{sitting_.study, sitting_.participant, plan_, block, block.trials[progress_.trial]};
   const auto ready = participant_.ready(at, [&] { return rig_.check(); });
   if (!ready) return mend(ready.fault(), false);
-  if (*ready == Choice::pause) return Choice::pause;
-  const Result<Choice> shown = lit_trial(at);
+  if (*ready == TrialChoice::pause) return TrialChoice::pause;
+  const Result<TrialChoice> shown = lit_trial(at);
   if (!shown) return mend(shown.fault(), true);
   if (Status dark = rig_.dark(); !dark) return mend(dark.fault(), false);
   return shown;
 }
 
-Result<Choice> Run::block() {
+Result<TrialChoice> Run::block() {
   const std::size_t number = progress_.block;
   const auto ready = set_up();
-  if (!ready || *ready == Choice::pause) return ready;
+  if (!ready || *ready == TrialChoice::pause) return ready;
   participant_.begin_block(plan_, current());
   block_began_ = Clock::now();
   while (progress_.block == number) {
     const auto choice = trial();
-    if (!choice || *choice == Choice::pause) return choice;
+    if (!choice || *choice == TrialChoice::pause) return choice;
   }
-  return Choice::go_on;
+  return TrialChoice::go_on;
 }
 
-Result<Choice> Run::questions() {
+Result<TrialChoice> Run::questions() {
   std::set<int> answered;
   for (const QuestionAnswer& answer : log_.questions()) answered.insert(answer.question);
   for (int q = 0; q < static_cast<int>(sitting_.study.questions.size()); ++q) {
     if (answered.contains(q)) continue;
     const auto said = participant_.question(sitting_.study.questions[static_cast<std::size_t>(q)].text);
     if (!said) return said.fault();
-    if (!*said) return Choice::pause;
+    if (!*said) return TrialChoice::pause;
     const QuestionAnswer answer{sitting_.participant, participant_.kind(), q, **said};
     if (Status written = log_.add(answer); !written) return written.fault();
   }
-  return Choice::go_on;
+  return TrialChoice::go_on;
 }
 
 Result<SittingEnd> Run::go() {
-  Result<Choice> choice = Choice::go_on;
-  while (choice && *choice == Choice::go_on && !progress_.finished()) {
+  Result<TrialChoice> choice = TrialChoice::go_on;
+  while (choice && *choice == TrialChoice::go_on && !progress_.finished()) {
     choice = block();
     if (sitting_.one_block) break;
   }
   (void)rig_.dark();  // also after a fault; a rig that is away has no light of ours to end
-  if (choice && *choice == Choice::go_on && progress_.finished()) choice = questions();
+  if (choice && *choice == TrialChoice::go_on && progress_.finished()) choice = questions();
   if (!choice) return choice.fault();
-  return SittingEnd{progress_, spoiled_, *choice == Choice::pause};
+  return SittingEnd{progress_, spoiled_, *choice == TrialChoice::pause};
 }
 
 }  // namespace
@@ -231,7 +233,7 @@ Result<SittingEnd> run_trials(const Sitting& sitting, AnswerLog& log, TrialRig& 
                               const std::stop_token& stop) {
   const auto index = participant_index(sitting.study, sitting.participant);
   if (!index) return index.fault();
-  std::vector<Block> plan = plan_of(sitting.study, *index);
+  std::vector<TrialBlock> plan = plan_of(sitting.study, *index);
   const auto progress = progress_of(sitting.study, plan, log.responses());
   if (!progress) return progress.fault();
   if (Status same = check_shows(sitting.study, sitting.conditions, log.responses()); !same) return same.fault();

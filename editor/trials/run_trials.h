@@ -20,7 +20,7 @@ struct Sitting {
 };
 
 struct SittingEnd {
-  Progress progress;
+  TrialProgress progress;
   int spoiled = 0;  ///< in this sitting
   bool paused = false;
 };

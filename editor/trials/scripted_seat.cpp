@@ -15,7 +15,7 @@ constexpr std::chrono::milliseconds between_tries{100};
 
 std::string ScriptedSeat::kind() const { return scripted_prefix + script_.name(); }
 
-void ScriptedSeat::begin_block(const std::vector<Block>& plan, const Block& block) {
+void ScriptedSeat::begin_block(const std::vector<TrialBlock>& plan, const TrialBlock& block) {
   std::printf("Block %d of %zu, answered by the scripted participant \"%s\".\n", block.number, plan.size(),
               script_.name().c_str());
   std::fflush(stdout);
@@ -26,20 +26,20 @@ void ScriptedSeat::notice(const std::string& what) {
   std::fflush(stdout);
 }
 
-Result<Choice> ScriptedSeat::ready(const TrialInPlan&, const WhileWaiting&) {
+Result<TrialChoice> ScriptedSeat::ready(const TrialInPlan&, const WhileWaiting&) {
   if (stop_.stop_requested()) return stopped();
-  return Choice::go_on;
+  return TrialChoice::go_on;
 }
 
-Result<Answer> ScriptedSeat::answer(const TrialInPlan& at, const WhileWaiting&) {
+Result<TrialAnswer> ScriptedSeat::answer(const TrialInPlan& at, const WhileWaiting&) {
   if (stop_.stop_requested()) return stopped();
   troubled_since_.reset();
   const auto answer_m = script_.answer(at.study, at.participant, at.block, at.trial);
-  if (!answer_m) return Answer{Answer::Kind::gave_up, 0.0};
-  return Answer{Answer::Kind::matched, *answer_m};
+  if (!answer_m) return TrialAnswer{TrialAnswer::Kind::gave_up, 0.0};
+  return TrialAnswer{TrialAnswer::Kind::matched, *answer_m};
 }
 
-Result<Choice> ScriptedSeat::trouble(const std::string& what) {
+Result<TrialChoice> ScriptedSeat::trouble(const std::string& what) {
   if (!troubled_since_) {
     std::printf("%s\n", what.c_str());
     std::fflush(stdout);
@@ -51,7 +51,7 @@ Result<Choice> ScriptedSeat::trouble(const std::string& what) {
   }
   std::this_thread::sleep_for(between_tries);
   if (stop_.stop_requested()) return stopped();
-  return Choice::go_on;
+  return TrialChoice::go_on;
 }
 
 Result<std::optional<bool>> ScriptedSeat::question(const std::string&) { return std::optional(script_.says_yes()); }

@@ -15,7 +15,7 @@ std::string reading_text(double reading_m) {
   return shortened + " mm";
 }
 
-std::string block_text(const std::vector<Block>& plan, const Block& block) {
+std::string block_text(const std::vector<TrialBlock>& plan, const TrialBlock& block) {
   const auto training = std::ranges::count_if(block.trials, &Trial::training);
   std::string text = "Block " + std::to_string(block.number) + " of " + std::to_string(plan.size()) + ": " +
                      std::to_string(block.trials.size()) + " trials";

@@ -10,7 +10,7 @@ namespace focalstage {
 // What is said names neither condition nor target: whoever reads it stays blind to both.
 
 /// "Block 1 of 2: 21 trials, the first for training."
-std::string block_text(const std::vector<Block>& plan, const Block& block);
+std::string block_text(const std::vector<TrialBlock>& plan, const TrialBlock& block);
 
 /// "Trial 3 of 21 (block 1 of 2), pointer from 412 mm"
 std::string trial_text(const TrialInPlan& at);

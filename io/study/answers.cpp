@@ -22,7 +22,7 @@ fs::path question_path(const fs::path& folder, const std::string& participant) {
 
 /// All rows of a file, each made by `make` and of `participant`.
 template <class Row, class Make>
-Result<std::vector<Row>> made_of(const Rows& rows, const Study& study, const std::string& participant,
+Result<std::vector<Row>> made_of(const RowList& rows, const Study& study, const std::string& participant,
                                  const fs::path& path, Make make) {
   std::vector<Row> made;
   for (std::size_t k = 0; k < rows.lines.size(); ++k) {
@@ -39,8 +39,8 @@ Result<std::vector<Row>> made_of(const Rows& rows, const Study& study, const std
 }
 
 /// The rows against the plan, with the file's line in the fault.
-Result<Progress> checked_progress(const Study& study, const std::string& participant,
-                                  const std::vector<Response>& responses, const fs::path& path) {
+Result<TrialProgress> checked_progress(const Study& study, const std::string& participant,
+                                       const std::vector<Response>& responses, const fs::path& path) {
   const auto index = participant_index(study, participant);
   if (!index) return index.fault();
   auto progress = progress_of(study, plan_of(study, *index), responses);

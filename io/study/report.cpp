@@ -2,8 +2,8 @@
 
 namespace focalstage {
 
-Report report_of(Answers answers) {
-  Report report;
+StudyReport report_of(Answers answers) {
+  StudyReport report;
   report.tallies = tally_of(answers.study, answers.responses);
   report.analysis = analyse(answers.study, answers.responses);
   report.answers = std::move(answers);

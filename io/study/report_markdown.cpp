@@ -25,7 +25,7 @@ std::string table(const Words& titles, const std::vector<Words>& rows) {
   return text;
 }
 
-std::string heading(const Report& report) {
+std::string heading(const StudyReport& report) {
   const Study& study = report.answers.study;
   std::string text = "# " + escaped(study.name) + "\n\n";
   if (report.scripted()) text += std::string("> **") + scripted_warning + "**\n\n";
@@ -41,7 +41,7 @@ std::string heading(const Report& report) {
   return text + " Distances are in mm from the lens centre; an error is the estimated less the actual distance.\n";
 }
 
-std::string participants(const Report& report) {
+std::string participants(const StudyReport& report) {
   std::vector<Words> rows;
   for (const Tally& tally : report.tallies) {
     rows.push_back({tally.participant, tally.kind, std::to_string(tally.answered), std::to_string(tally.given_up),
@@ -57,9 +57,9 @@ std::string names(const Study& study, const std::vector<int>& participants) {
   return text;
 }
 
-std::string left_out(const Report& report) {
+std::string left_out(const StudyReport& report) {
   const Study& study = report.answers.study;
-  const Cells& cells = report.analysis.cells;
+  const CellMeans& cells = report.analysis.cells;
   std::string text =
       "\nA mean is of the repetitions that one participant answered for one target under one condition; training is in "
       "no "
@@ -80,25 +80,25 @@ std::string left_out(const Report& report) {
   return text + "\n";
 }
 
-Words summary_cells(const Summary& summary) {
+Words summary_cells(const ErrorSummary& summary) {
   if (summary.error.count == 0) return {"0", "", "", "", ""};
   return {std::to_string(summary.error.count), mm_text(summary.estimated.mean_m),
           mm_text(summary.estimated.deviation_m), mm_text(summary.error.mean_m), mm_text(summary.error.deviation_m)};
 }
 
-std::string means(const Report& report) {
+std::string means(const StudyReport& report) {
   const Study& study = report.answers.study;
   std::vector<Words> rows;
-  const auto add = [&](const Summary& summary, const std::string& target, const std::string& actual) {
+  const auto add = [&](const ErrorSummary& summary, const std::string& target, const std::string& actual) {
     Words cells{condition_name(study, summary.condition), target, actual};
     const Words numbers = summary_cells(summary);
     cells.insert(cells.end(), numbers.begin(), numbers.end());
     rows.push_back(std::move(cells));
   };
-  for (const Summary& all : report.analysis.by_condition) {
-    for (const Summary& summary : report.analysis.by_target) {
+  for (const ErrorSummary& all : report.analysis.by_condition) {
+    for (const ErrorSummary& summary : report.analysis.by_target) {
       if (summary.condition != all.condition) continue;
-      const Target& target = study.targets[static_cast<std::size_t>(summary.target)];
+      const StudyTarget& target = study.targets[static_cast<std::size_t>(summary.target)];
       add(summary, target.name, mm_text(target.actual_m, 1));
     }
     add(all, "all", "");
@@ -111,13 +111,13 @@ std::string line_text(double slope, double intercept_m) {
   return "y = " + fixed_text(slope, 5) + " x " + (intercept_m < 0.0 ? "- " : "+ ") + mm_text(std::abs(intercept_m), 3);
 }
 
-std::string regression(const Report& report) {
+std::string regression(const StudyReport& report) {
   std::string text = "\n## Regression of estimated on actual distance\n";
   const Study& study = report.answers.study;
   const auto& found = report.analysis.regression;
   if (!found) return text + "\nNot possible: a condition has means at fewer than two distances.\n";
   std::vector<Words> rows;
-  for (const Line& line : found->lines) {
+  for (const FittedLine& line : found->lines) {
     const double parallel_m = found->parallel_m[static_cast<std::size_t>(line.condition)];
     rows.push_back({condition_name(study, line.condition), std::to_string(line.points),
                     line_text(line.slope, line.intercept_m), fixed_text(line.r_squared, 4),
@@ -145,7 +145,7 @@ Words anova_row(const std::string& name, const std::optional<FTest>& test) {
           p_text(test->p)};
 }
 
-std::string anova(const Report& report) {
+std::string anova(const StudyReport& report) {
   std::string text = "\n## Analysis of variance of the errors\n";
   const auto& found = report.analysis.anova;
   if (!found) {
@@ -162,7 +162,7 @@ std::string anova(const Report& report) {
   return text + "\nTwo-way, between subjects, as in the paper: means of one participant count as independent.\n";
 }
 
-std::string post_hoc(const Report& report) {
+std::string post_hoc(const StudyReport& report) {
   const Study& study = report.answers.study;
   const auto& found = report.analysis.anova;
   if (!found || found->pairs.empty()) return {};
@@ -184,7 +184,7 @@ std::string post_hoc(const Report& report) {
                 : "\nt tests with the residual of the analysis of variance, p after Holm's correction.\n");
 }
 
-std::string within(const Report& report) {
+std::string within(const StudyReport& report) {
   const Study& study = report.answers.study;
   std::vector<Words> rows;
   for (const Within& each : report.analysis.within) {
@@ -200,7 +200,7 @@ std::string within(const Report& report) {
          table({"conditions", "participants", "difference (mm)", "95 % confidence (mm)", "t", "df", "p"}, rows);
 }
 
-std::string questions(const Report& report) {
+std::string questions(const StudyReport& report) {
   const Study& study = report.answers.study;
   if (study.questions.empty()) return {};
   std::vector<Words> rows;
@@ -220,7 +220,7 @@ std::string questions(const Report& report) {
   return "\n## Questions\n" + table({"question", "", "yes", "no", "not asked yet", "who said yes"}, rows);
 }
 
-std::string shows(const Report& report) {
+std::string shows(const StudyReport& report) {
   const Study& study = report.answers.study;
   std::set<std::pair<int, std::string>> met;
   for (const Response& response : report.answers.responses) met.insert({response.condition, response.show_sha256});
@@ -232,7 +232,7 @@ std::string shows(const Report& report) {
 
 }  // namespace
 
-std::string report_markdown(const Report& report, const std::string& plot) {
+std::string report_markdown(const StudyReport& report, const std::string& plot) {
   std::string text = heading(report) + participants(report) + means(report);
   if (!plot.empty()) text += "\n![Estimated over actual distance, with the line of each condition](" + plot + ")\n";
   return text + regression(report) + anova(report) + post_hoc(report) + within(report) + questions(report) +

@@ -32,14 +32,14 @@ struct Frame {
   double y(double m) const { return height - bottom - (m - low_m) / (high_m - low_m) * (height - top - bottom); }
 };
 
-Frame frame_of(const Report& report) {
+Frame frame_of(const StudyReport& report) {
   double low_m = report.answers.study.targets.front().actual_m;
   double high_m = low_m;
   const auto reach = [&](double m) {
     low_m = std::min(low_m, m);
     high_m = std::max(high_m, m);
   };
-  for (const Target& target : report.answers.study.targets) reach(target.actual_m);
+  for (const StudyTarget& target : report.answers.study.targets) reach(target.actual_m);
   for (const Response& response : report.answers.responses) {
     if (response.counts() && response.answered()) reach(response.response_m);
   }
@@ -84,7 +84,7 @@ std::string axes(const Frame& frame) {
                      "stroke=\"#888888\" stroke-dasharray=\"5 4\"");
 }
 
-std::string points(const Report& report, const Frame& frame) {
+std::string points(const StudyReport& report, const Frame& frame) {
   std::string text;
   const double conditions = static_cast<double>(report.answers.study.conditions.size());
   for (const Response& response : report.answers.responses) {
@@ -97,16 +97,16 @@ std::string points(const Report& report, const Frame& frame) {
   return text;
 }
 
-std::string lines(const Report& report, const Frame& frame) {
+std::string lines(const StudyReport& report, const Frame& frame) {
   if (!report.analysis.regression) return {};
   std::string text;
   double low_m = report.answers.study.targets.front().actual_m;
   double high_m = low_m;
-  for (const Target& target : report.answers.study.targets) {
+  for (const StudyTarget& target : report.answers.study.targets) {
     low_m = std::min(low_m, target.actual_m);
     high_m = std::max(high_m, target.actual_m);
   }
-  for (const Line& fit : report.analysis.regression->lines) {
+  for (const FittedLine& fit : report.analysis.regression->lines) {
     const auto y = [&](double x_m) { return frame.y(fit.slope * x_m + fit.intercept_m); };
     text += line(frame.x(low_m), y(low_m), frame.x(high_m), y(high_m),
                  std::string("class=\"fit\" stroke=\"") + color_of(fit.condition) + "\" stroke-width=\"2\"");
@@ -114,14 +114,14 @@ std::string lines(const Report& report, const Frame& frame) {
   return text;
 }
 
-std::string legend(const Report& report) {
+std::string legend(const StudyReport& report) {
   std::string text;
   double y = top + 18.0;
   const auto& regression = report.analysis.regression;
   for (int k = 0; k < static_cast<int>(report.answers.study.conditions.size()); ++k, y += 18.0) {
     std::string words = condition_name(report.answers.study, k);
     if (regression) {
-      const Line& fit = regression->lines[static_cast<std::size_t>(k)];
+      const FittedLine& fit = regression->lines[static_cast<std::size_t>(k)];
       words += ": y = " + fixed_text(fit.slope, 3) + " x " + (fit.intercept_m < 0.0 ? "- " : "+ ") +
                mm_text(std::abs(fit.intercept_m), 1) + " mm";
     }
@@ -133,7 +133,7 @@ std::string legend(const Report& report) {
 
 }  // namespace
 
-std::string report_svg(const Report& report) {
+std::string report_svg(const StudyReport& report) {
   const Frame frame = frame_of(report);
   const std::string title = report.answers.study.name + (report.scripted() ? " - scripted, no human result" : "");
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + fixed_text(width, 0) + "\" height=\"" +

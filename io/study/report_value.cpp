@@ -15,7 +15,7 @@ Value value_of(const std::optional<FTest>& test) {
   return value;
 }
 
-Value value_of(const Study& study, const Summary& summary) {
+Value value_of(const Study& study, const ErrorSummary& summary) {
   Value value;
   value.set("condition", condition_name(study, summary.condition));
   if (summary.target >= 0) value.set("target", target_name(study, summary.target));
@@ -41,7 +41,7 @@ Value value_of(const Tally& tally) {
 Value regression_value(const Study& study, const std::optional<Regression>& regression) {
   if (!regression) return Value();
   Value::Array lines;
-  for (const Line& line : regression->lines) {
+  for (const FittedLine& line : regression->lines) {
     Value value;
     value.set("condition", condition_name(study, line.condition));
     value.set("slope", line.slope);
@@ -100,7 +100,7 @@ Value within_value(const Study& study, const std::vector<Within>& within) {
   return Value(std::move(list));
 }
 
-Value questions_value(const Report& report) {
+Value questions_value(const StudyReport& report) {
   Value::Array list;
   for (const QuestionAnswer& answer : report.answers.questions) {
     Value value;
@@ -118,7 +118,7 @@ Value names_value(const Study& study, const std::vector<int>& participants) {
   return Value(std::move(list));
 }
 
-Value left_out_value(const Study& study, const Cells& cells) {
+Value left_out_value(const Study& study, const CellMeans& cells) {
   Value value;
   value.set("rule", name_of(study.missing));
   value.set("unfinished", names_value(study, cells.unfinished));
@@ -137,7 +137,7 @@ Value left_out_value(const Study& study, const Cells& cells) {
 
 }  // namespace
 
-Value report_value(const Report& report) {
+Value report_value(const StudyReport& report) {
   const Study& study = report.answers.study;
   Value value;
   value.set("study", study.name);
@@ -148,10 +148,10 @@ Value report_value(const Report& report) {
   value.set("participants", std::move(tallies));
   value.set("left_out", left_out_value(study, report.analysis.cells));
   Value::Array conditions;
-  for (const Summary& summary : report.analysis.by_condition) conditions.push_back(value_of(study, summary));
+  for (const ErrorSummary& summary : report.analysis.by_condition) conditions.push_back(value_of(study, summary));
   value.set("by_condition", std::move(conditions));
   Value::Array targets;
-  for (const Summary& summary : report.analysis.by_target) targets.push_back(value_of(study, summary));
+  for (const ErrorSummary& summary : report.analysis.by_target) targets.push_back(value_of(study, summary));
   value.set("by_target", std::move(targets));
   value.set("regression", regression_value(study, report.analysis.regression));
   value.set("anova", anova_value(study, report.analysis.anova));

@@ -122,7 +122,7 @@ bool is_sha256(const std::string& text) {
 
 std::string row_of(const Study& study, const Response& response) {
   const Condition& condition = study.conditions[static_cast<std::size_t>(response.condition)];
-  const Target& target = study.targets[static_cast<std::size_t>(response.target)];
+  const StudyTarget& target = study.targets[static_cast<std::size_t>(response.target)];
   return joined({study_fingerprint(study),
                  response.participant,
                  response.kind,

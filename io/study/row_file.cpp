@@ -28,8 +28,8 @@ Fault other_header(const fs::path& path) {
 }
 
 /// Rows of the whole text; `end` becomes where the last whole line ends.
-Result<Rows> split(const fs::path& path, std::string_view text, std::string_view header, std::size_t& end) {
-  Rows rows;
+Result<RowList> split(const fs::path& path, std::string_view text, std::string_view header, std::size_t& end) {
+  RowList rows;
   end = 0;
   bool first = true;
   while (end < text.size()) {
@@ -55,7 +55,7 @@ Result<std::string> text_of(const fs::path& path) {
 
 }  // namespace
 
-Result<Rows> read_rows(const fs::path& path, std::string_view header) {
+Result<RowList> read_rows(const fs::path& path, std::string_view header) {
   const auto text = text_of(path);
   if (!text) return text.fault();
   std::size_t end = 0;

@@ -12,13 +12,13 @@
 namespace focalstage {
 
 /// The lines of a text file of rows, without its header; and whether its last line was cut off.
-struct Rows {
+struct RowList {
   std::vector<std::string> lines;
   bool torn = false;  ///< the last line has no end: it was being written, and is no row
 };
 
 /// Reads a file of rows whose first line must be `header`. Nothing is changed. Fault "study.rows" for another header.
-Result<Rows> read_rows(const std::filesystem::path& path, std::string_view header);
+Result<RowList> read_rows(const std::filesystem::path& path, std::string_view header);
 
 /// A file of rows that only grows. A row that `append` has taken outlives a kill and a power cut; one that it could not
 /// take leaves the file as it was.
@@ -29,7 +29,7 @@ class RowFile {
   static Result<RowFile> open(const std::filesystem::path& path, std::string_view header);
 
   /// What was there when it was opened.
-  const Rows& rows() const { return rows_; }
+  const RowList& rows() const { return rows_; }
 
   /// `row` without its line end. Fault "file.unwritable".
   Status append(const std::string& row);
@@ -41,7 +41,7 @@ class RowFile {
   std::filesystem::path path_;
   Descriptor file_;
   std::uint64_t size_ = 0;
-  Rows rows_;
+  RowList rows_;
 };
 
 }  // namespace focalstage

@@ -33,12 +33,12 @@ std::vector<Item> list_of(const Value& object, std::string_view key, Make make) 
 }
 
 Condition condition_from(const Value& value) {
-  const bool conventional = text_of(value, "variant") == name_of(Variant::conventional);
+  const bool conventional = text_of(value, "variant") == name_of(ConditionVariant::conventional);
   return {text_of(value, "name"), text_of(value, "project"), text_of(value, "show"),
-          conventional ? Variant::conventional : Variant::multifocal};
+          conventional ? ConditionVariant::conventional : ConditionVariant::multifocal};
 }
 
-Target target_from(const Value& value) {
+StudyTarget target_from(const Value& value) {
   return {text_of(value, "name"), text_of(value, "cue"), static_cast<int>(number_of(value, "frame", -1)),
           number_of(value, "actual_m", 0.0)};
 }
@@ -50,7 +50,7 @@ Study study_from(const Value& value) {
   study.seed = static_cast<std::uint64_t>(number_of(value, "seed", 0.0));
   study.participants = list_of<std::string>(value, "participants", [](const Value& item) { return *item.text(); });
   study.conditions = list_of<Condition>(value, "conditions", condition_from);
-  study.targets = list_of<Target>(value, "targets", target_from);
+  study.targets = list_of<StudyTarget>(value, "targets", target_from);
   study.repetitions = static_cast<int>(number_of(value, "repetitions", 0.0));
   study.training_trials = static_cast<int>(number_of(value, "training_trials", study.training_trials));
   const Value& pointer = *value.find("pointer");
@@ -58,8 +58,8 @@ Study study_from(const Value& value) {
                    number_of(pointer, "step_m", study.pointer.step_m)};
   const bool complete = text_of(value, "missing") == name_of(MissingRule::complete_participants);
   study.missing = complete ? MissingRule::complete_participants : MissingRule::answered_repetitions;
-  study.questions = list_of<Question>(value, "questions", [](const Value& item) {
-    return Question{text_of(item, "name"), text_of(item, "text")};
+  study.questions = list_of<StudyQuestion>(value, "questions", [](const Value& item) {
+    return StudyQuestion{text_of(item, "name"), text_of(item, "text")};
   });
   return study;
 }
@@ -76,7 +76,7 @@ Value value_from(const Condition& condition) {
   return value;
 }
 
-Value value_from(const Target& target) {
+Value value_from(const StudyTarget& target) {
   Value value;
   value.set("name", target.name);
   target.cue.empty() ? value.set("frame", target.frame) : value.set("cue", target.cue);
@@ -84,7 +84,7 @@ Value value_from(const Target& target) {
   return value;
 }
 
-Value value_from(const Question& question) {
+Value value_from(const StudyQuestion& question) {
   Value value;
   value.set("name", question.name);
   value.set("text", question.text);

@@ -12,8 +12,8 @@ inline Study paper_study() {
   study.name = "Depth matching";
   study.seed = 7;
   for (int k = 1; k <= 10; ++k) study.participants.push_back((k < 10 ? "P0" : "P") + std::to_string(k));
-  study.conditions = {{"multifocal", "depth-matching", "", Variant::multifocal},
-                      {"conventional", "depth-matching", "", Variant::conventional}};
+  study.conditions = {{"multifocal", "depth-matching", "", ConditionVariant::multifocal},
+                      {"conventional", "depth-matching", "", ConditionVariant::conventional}};
   study.targets = {{"333 mm", "333 mm", -1, 1.0 / 3.0},
                    {"364 mm", "364 mm", -1, 0.364},
                    {"400 mm", "400 mm", -1, 0.4},

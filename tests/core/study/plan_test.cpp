@@ -14,7 +14,7 @@ using namespace focalstage;
 namespace {
 
 /// The targets of one pass in order; training is pass 0.
-std::vector<int> targets_of_pass(const Block& block, int repetition) {
+std::vector<int> targets_of_pass(const TrialBlock& block, int repetition) {
   std::vector<int> targets;
   for (const Trial& trial : block.trials) {
     if (trial.repetition == repetition) targets.push_back(trial.target);
@@ -28,7 +28,7 @@ Study study_of(int conditions, int targets, int participants) {
   study.targets.clear();
   study.participants.clear();
   for (int k = 1; k < conditions; ++k) {
-    study.conditions.push_back({"c" + std::to_string(k), "p", "", Variant::conventional});
+    study.conditions.push_back({"c" + std::to_string(k), "p", "", ConditionVariant::conventional});
   }
   for (int k = 0; k < targets; ++k) {
     study.targets.push_back({"t" + std::to_string(k), "t" + std::to_string(k), -1, 0.3 + 0.01 * k});
@@ -37,8 +37,8 @@ Study study_of(int conditions, int targets, int participants) {
   return study;
 }
 
-const Block& block_of(const std::vector<Block>& plan, int condition) {
-  return *std::ranges::find(plan, condition, &Block::condition);
+const TrialBlock& block_of(const std::vector<TrialBlock>& plan, int condition) {
+  return *std::ranges::find(plan, condition, &TrialBlock::condition);
 }
 
 /// How often each target stands at each place, and each follows each other one, in pass `repetition` under `condition`.
@@ -69,12 +69,12 @@ bool all_are(const Map& map, std::size_t entries, int count) {
 TEST_CASE("the paper's study: two blocks of 21 trials, training first, each target four times") {
   const Study study = paper_study();
   for (int p = 0; p < 10; ++p) {
-    const std::vector<Block> plan = plan_of(study, p);
+    const std::vector<TrialBlock> plan = plan_of(study, p);
     REQUIRE(plan.size() == 2);
     // AB, BA, AB, ...
     CHECK(plan[0].condition == p % 2);
     CHECK(plan[1].condition == 1 - p % 2);
-    for (const Block& block : plan) {
+    for (const TrialBlock& block : plan) {
       REQUIRE(block.trials.size() == 21);
       CHECK(block.trials[0].training);
       for (std::size_t k = 0; k < 21; ++k) {
@@ -108,7 +108,7 @@ TEST_CASE("over a full set each target stands and follows equally often, and nev
         }
       }
       for (int p = 0; p < people; ++p) {
-        for (const Block& block : plan_of(study, p)) {
+        for (const TrialBlock& block : plan_of(study, p)) {
           for (std::size_t k = 2; k < block.trials.size(); ++k) {
             CHECK(block.trials[k].target != block.trials[k - 1].target);
           }
@@ -144,7 +144,7 @@ TEST_CASE("three conditions: every order stands at every place, and each follows
 TEST_CASE(
     "a plan is the same each time, another for another seed or participant, and untouched by those who join later") {
   Study study = paper_study();
-  const std::vector<Block> plan = plan_of(study, 3);
+  const std::vector<TrialBlock> plan = plan_of(study, 3);
   CHECK(plan == plan_of(study, 3));
   CHECK_FALSE(plan == plan_of(study, 5));
   study.participants.push_back("late");
@@ -154,7 +154,7 @@ TEST_CASE(
   // Fixed for good: answers of a study that is under way are held against it.
   study = paper_study();
   std::vector<int> first;
-  const std::vector<Block> kept = plan_of(study, 0);
+  const std::vector<TrialBlock> kept = plan_of(study, 0);
   for (const Trial& trial : kept[0].trials) first.push_back(trial.target);
   CHECK(first == std::vector<int>{2, 1, 2, 0, 3, 4, 1, 0, 2, 4, 3, 2, 3, 1, 4, 0, 3, 2, 4, 1, 0});
 }
@@ -163,7 +163,7 @@ TEST_CASE("the pointer starts on its steps, within its range, at many places") {
   const Study study = paper_study();
   std::set<double> starts;
   for (int p = 0; p < 10; ++p) {
-    for (const Block& block : plan_of(study, p)) {
+    for (const TrialBlock& block : plan_of(study, p)) {
       for (const Trial& trial : block.trials) {
         CHECK(trial.pointer_start_m >= 0.2);
         CHECK(trial.pointer_start_m <= 0.8);

@@ -12,9 +12,9 @@ using namespace focalstage;
 namespace {
 
 /// A whole participant's rows, each trial answered at its first showing.
-std::vector<Response> whole(const Study& study, const std::vector<Block>& plan) {
+std::vector<Response> whole(const Study& study, const std::vector<TrialBlock>& plan) {
   std::vector<Response> rows;
-  for (const Block& block : plan) {
+  for (const TrialBlock& block : plan) {
     for (const Trial& trial : block.trials) {
       Response row;
       row.participant = study.participants[0];

@@ -18,7 +18,7 @@ std::vector<Response> answers_of(const Study& study, const std::string& name) {
   std::vector<Response> responses;
   for (int p = 0; p < static_cast<int>(study.participants.size()); ++p) {
     const std::string& who = study.participants[static_cast<std::size_t>(p)];
-    for (const Block& block : plan_of(study, p)) {
+    for (const TrialBlock& block : plan_of(study, p)) {
       for (const Trial& trial : block.trials) {
         const auto answer = scripted->answer(study, who, block, trial);
         CHECK(answer == scripted->answer(study, who, block, trial));
@@ -41,7 +41,7 @@ std::vector<Response> answers_of(const Study& study, const std::string& name) {
 
 TEST_CASE("biased: the conventional condition is 25 mm farther, and the tests find it") {
   const Study study = paper_study();
-  const Analysis analysis = analyse(study, answers_of(study, "biased"));
+  const StudyAnalysis analysis = analyse(study, answers_of(study, "biased"));
   REQUIRE(analysis.regression);
   // Means of four answers with 10 mm noise, 50 of them: a standard error of 0.7 mm.
   CHECK(std::abs(analysis.by_condition[0].error.mean_m) < 0.003);

@@ -37,8 +37,8 @@ constexpr double teeth[2][3][10] = {{{15.2, 21.5, 17.6, 9.7, 14.5, 10.0, 8.2, 9.
                                      {16.5, 16.5, 15.2, 17.3, 22.5, 17.3, 13.6, 14.5, 18.8, 15.5},
                                      {23.6, 18.5, 33.9, 25.5, 26.4, 32.5, 26.7, 21.5, 23.3, 29.5}}};
 
-Cells teeth_cells() {
-  Cells cells;
+CellMeans teeth_cells() {
+  CellMeans cells;
   for (int condition = 0; condition < 2; ++condition) {
     for (int target = 0; target < 3; ++target) {
       for (int animal = 0; animal < 10; ++animal) {
@@ -58,8 +58,8 @@ Study study_with(int conditions, int targets) {
 }
 
 /// Every trial of every participant, answered by `answer_m(participant, condition, target, repetition)`.
-template <class Answer>
-std::vector<Response> responses_of(const Study& study, Answer answer_m) {
+template <class TrialAnswer>
+std::vector<Response> responses_of(const Study& study, TrialAnswer answer_m) {
   std::vector<Response> responses;
   for (int p = 0; p < static_cast<int>(study.participants.size()); ++p) {
     for (int c = 0; c < static_cast<int>(study.conditions.size()); ++c) {
@@ -106,7 +106,7 @@ TEST_CASE("least squares refuse columns that are sums of others, and more column
 }
 
 TEST_CASE("slopes and intercepts: the cars of 1974, as R's lm(mpg ~ wt * am) and lm(mpg ~ wt + am) have them") {
-  Cells cells;
+  CellMeans cells;
   for (int k = 0; k < 32; ++k) {
     cells.means.push_back({k, static_cast<int>(cars[k][2]), k, cars[k][1], cars[k][0], 1});
   }
@@ -151,7 +151,7 @@ TEST_CASE("analysis of variance: Crampton's teeth, as R's aov and TukeyHSD have 
 }
 
 TEST_CASE("more conditions: Holm's correction raises p and keeps its order") {
-  Cells cells = teeth_cells();
+  CellMeans cells = teeth_cells();
   for (int target = 0; target < 3; ++target) {
     for (int animal = 0; animal < 10; ++animal) {
       cells.means.push_back({animal, 2, target, 10.0 * target, 10.0 * target + teeth[0][target][animal] + 0.5, 1});
@@ -176,7 +176,7 @@ TEST_CASE("the paper's degrees of freedom: 1,96 and 1,97; 1,90, 4,90 and 4,90") 
     return study.targets[static_cast<std::size_t>(t)].actual_m + 0.02 * c + 0.01 * wobble;
   });
   CHECK(responses.size() == 400);
-  const Analysis analysis = analyse(study, responses);
+  const StudyAnalysis analysis = analyse(study, responses);
   CHECK(analysis.cells.means.size() == 100);
   REQUIRE(analysis.regression);
   CHECK(analysis.regression->slopes->df1 == 1.0);
@@ -202,7 +202,7 @@ TEST_CASE("within participants: a difference that wobbles by known amounts") {
   const auto responses = responses_of(study, [&](int p, int c, int t, int) {
     return study.targets[static_cast<std::size_t>(t)].actual_m + (c == 1 ? add_m[p] : 0.0);
   });
-  const Analysis analysis = analyse(study, responses);
+  const StudyAnalysis analysis = analyse(study, responses);
   REQUIRE(analysis.within.size() == 1);
   // Mean -20 mm, standard deviation 10 mm, so t = -20 / (10 / sqrt 3); 4.302653 is t(0.975; 2).
   CHECK(analysis.within[0].t == Approx(-2.0 * std::sqrt(3.0)));
@@ -214,7 +214,7 @@ TEST_CASE("answers without any variation: lines, but no tests") {
   const Study study = paper_study();
   const auto exact =
       responses_of(study, [&](int, int, int t, int) { return study.targets[static_cast<std::size_t>(t)].actual_m; });
-  const Analysis analysis = analyse(study, exact);
+  const StudyAnalysis analysis = analyse(study, exact);
   REQUIRE(analysis.regression);
   CHECK(analysis.regression->lines[0].slope == Approx(1.0));
   CHECK(analysis.regression->lines[0].intercept_m == Approx(0.0));
@@ -228,7 +228,7 @@ TEST_CASE("answers without any variation: lines, but no tests") {
 
 TEST_CASE("no answers, or one participant's: nothing is invented") {
   const Study study = paper_study();
-  const Analysis none = analyse(study, {});
+  const StudyAnalysis none = analyse(study, {});
   CHECK_FALSE(none.regression);
   CHECK_FALSE(none.anova);
   CHECK(none.by_condition[0].error.count == 0);
@@ -236,7 +236,7 @@ TEST_CASE("no answers, or one participant's: nothing is invented") {
   alone.participants = {"P01"};
   const auto one =
       responses_of(alone, [](int, int c, int t, int r) { return 0.3 + 0.05 * t + 0.01 * c + 0.002 * r * t; });
-  const Analysis analysis = analyse(alone, one);
+  const StudyAnalysis analysis = analyse(alone, one);
   CHECK(analysis.regression);
   CHECK_FALSE(analysis.anova);  // one mean per cell leaves no residual
 }
@@ -252,7 +252,7 @@ TEST_CASE("what was given up: means of the rest, or the participant left out, bu
     const bool wholly = response.participant == "P03" && response.condition == 1 && response.target == 2;
     response.gave_up = (once && response.repetition == 4) || wholly;
   }
-  Cells cells = cells_of(study, responses);
+  CellMeans cells = cells_of(study, responses);
   CHECK(cells.means.size() == 99);
   REQUIRE(cells.empty.size() == 1);
   CHECK(cells.empty[0].participant == 2);
@@ -284,7 +284,7 @@ TEST_CASE("who has not finished is left out; training and spoiled trials are no 
   spoiled.response_m = 99.0;
   responses.push_back(training);
   responses.push_back(spoiled);
-  const Cells cells = cells_of(study, responses);
+  const CellMeans cells = cells_of(study, responses);
   CHECK(cells.unfinished == std::vector<int>{9});
   CHECK(cells.used.size() == 9);
   CHECK(cells.means[0].estimated_m == Approx(0.4025));
@@ -295,7 +295,7 @@ TEST_CASE("a condition without any answer for a target: no analysis of variance"
   auto responses =
       responses_of(study, [](int p, int c, int t, int r) { return 0.3 + 0.01 * p + 0.02 * c + 0.04 * t + 0.001 * r; });
   for (Response& response : responses) response.gave_up = response.condition == 1 && response.target == 0;
-  const Analysis analysis = analyse(study, responses);
+  const StudyAnalysis analysis = analyse(study, responses);
   CHECK(analysis.cells.empty.size() == 10);
   CHECK_FALSE(analysis.anova);
   CHECK(analysis.regression);

@@ -28,7 +28,7 @@ TEST_CASE("the example is a study, and both its conditions are shows that a rig 
   const Study study = example_study();
   CHECK(check(study));
   const TemporaryFolder folder;
-  const auto conditions = make_conditions(study, projects, folder.path(), std::nullopt, {});
+  const auto conditions = make_conditions(study, projects, folder.path(), std::nullopt, [](int, int) {}, {});
   REQUIRE(conditions);
   REQUIRE(conditions->size() == 2);
   const auto multifocal = ShowReader::open((*conditions)[0].show);
@@ -50,8 +50,8 @@ TEST_CASE("the example is a study, and both its conditions are shows that a rig 
 TEST_CASE("the conventional variant changes focus and nothing that two eyes see") {
   const auto source = load_project(projects / "depth-matching");
   REQUIRE(source);
-  CHECK(variant_edits(source->project, Variant::multifocal).empty());
-  const auto changed = apply_all(source->project, variant_edits(source->project, Variant::conventional));
+  CHECK(variant_edits(source->project, ConditionVariant::multifocal).empty());
+  const auto changed = apply_all(source->project, variant_edits(source->project, ConditionVariant::conventional));
   REQUIRE(changed);
   CHECK(changed->slices.powers_d == std::vector<double>{0.0});
   Project back = *changed;
@@ -70,24 +70,26 @@ TEST_CASE("frames in place of cues, another distance between the eyes, and what 
     study.targets[static_cast<std::size_t>(t)].frame = t;
   }
   const TemporaryFolder folder;
-  const auto narrow = make_conditions(study, projects, folder.path(), 58.0, {});
+  const auto narrow = make_conditions(study, projects, folder.path(), 58.0, [](int, int) {}, {});
   REQUIRE(narrow);
   CHECK((*narrow)[0].interpupillary_mm == 58.0);
   CHECK((*narrow)[0].targets[1] == ShownTarget{"364 mm", 1});
   const std::string sha256 = (*narrow)[0].sha256;
-  const auto wide = make_conditions(study, projects, folder.path(), 70.0, {});
+  const auto wide = make_conditions(study, projects, folder.path(), 70.0, [](int, int) {}, {});
   REQUIRE(wide);
   CHECK((*wide)[0].sha256 != sha256);
 
   // As a show, it is what it is.
-  study.conditions[0] = {"ready", "", (*wide)[0].show.string(), Variant::multifocal};
-  CHECK(make_conditions(study, projects, folder / "more", std::nullopt, {}));
-  CHECK(make_conditions(study, projects, folder / "more", 58.0, {}).fault().code == "study.condition");
+  study.conditions[0] = {"ready", "", (*wide)[0].show.string(), ConditionVariant::multifocal};
+  CHECK(make_conditions(study, projects, folder / "more", std::nullopt, [](int, int) {}, {}));
+  CHECK(make_conditions(study, projects, folder / "more", 58.0, [](int, int) {}, {}).fault().code == "study.condition");
   study.targets[0].frame = 5;
-  CHECK(make_conditions(study, projects, folder / "more", std::nullopt, {}).fault().code == "study.target");
+  CHECK(make_conditions(study, projects, folder / "more", std::nullopt, [](int, int) {}, {}).fault().code ==
+        "study.target");
   study = example_study();
   study.conditions[0].project = "nowhere";
-  CHECK(make_conditions(study, projects, folder / "more", std::nullopt, {}).fault().code == "file.missing");
+  CHECK(make_conditions(study, projects, folder / "more", std::nullopt, [](int, int) {}, {}).fault().code ==
+        "file.missing");
 }
 
 TEST_CASE("a frame without a cue gets one in a project") {

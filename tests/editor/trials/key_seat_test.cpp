@@ -10,7 +10,7 @@ using namespace focalstage;
 
 namespace {
 
-const Pointer pointer{0.3, 0.5, 0.001};
+const StudyPointer pointer{0.3, 0.5, 0.001};
 
 /// What is confirmed after these bytes; every byte a key of the entry.
 Result<double> typed(PointerEntry entry, const std::string& bytes) {
@@ -50,10 +50,10 @@ TEST_CASE("digits type a reading, backspace takes one back, an arrow forgets wha
 TEST_CASE("other keys come through whole") {
   KeyDecoder decoder;
   CHECK(decoder.take('g').character == 'g');
-  CHECK(decoder.take('\r').key == Key::enter);
-  CHECK(decoder.take('\x1b').key == Key::none);
-  CHECK(decoder.take('[').key == Key::none);
-  CHECK(decoder.take('H').key == Key::none);  // home: no meaning here
+  CHECK(decoder.take('\r').key == SeatKey::enter);
+  CHECK(decoder.take('\x1b').key == SeatKey::none);
+  CHECK(decoder.take('[').key == SeatKey::none);
+  CHECK(decoder.take('H').key == SeatKey::none);  // home: no meaning here
   CHECK(decoder.take('q').character == 'q');
 }
 
@@ -72,7 +72,7 @@ TEST_CASE("input: lines, a last one without its end, and the rig's word in betwe
   int pipe_ends[2] = {-1, -1};
   REQUIRE(::pipe(pipe_ends) == 0);
   REQUIRE(::write(pipe_ends[1], "412\r\ng\nrest", 11) == 11);
-  Input input(pipe_ends[0], {});
+  SeatInput input(pipe_ends[0], {});
   CHECK(*input.line({}) == "412");
   CHECK(*input.line({}) == "g");
   const auto interrupted = input.line([]() -> Status { return Fault{"rig.dark", "", "", ""}; });
@@ -82,6 +82,6 @@ TEST_CASE("input: lines, a last one without its end, and the rig's word in betwe
   CHECK(input.line({}).fault().code == "trials.input-ended");
   std::stop_source stop;
   stop.request_stop();
-  CHECK(Input(pipe_ends[0], stop.get_token()).next({}).fault().code == "trials.stopped");
+  CHECK(SeatInput(pipe_ends[0], stop.get_token()).next({}).fault().code == "trials.stopped");
   ::close(pipe_ends[0]);
 }

@@ -67,26 +67,27 @@ class FakePerson final : public TrialParticipant {
   explicit FakePerson(FakeRig& rig, int pauses_at = 0) : rig_(rig), pauses_at_(pauses_at) {}
 
   std::string kind() const override { return human_kind; }
-  void begin_block(const std::vector<Block>&, const Block&) override {}
+  void begin_block(const std::vector<TrialBlock>&, const TrialBlock&) override {}
   void notice(const std::string&) override {}
-  Result<Choice> ready(const TrialInPlan&, const WhileWaiting& check) override {
+  Result<TrialChoice> ready(const TrialInPlan&, const WhileWaiting& check) override {
     CHECK_FALSE(rig_.lit);
     if (Status good = check(); !good) return good.fault();
-    return ++turns_ == pauses_at_ ? Choice::pause : Choice::go_on;
+    return ++turns_ == pauses_at_ ? TrialChoice::pause : TrialChoice::go_on;
   }
-  Result<Answer> answer(const TrialInPlan& at, const WhileWaiting& check) override {
+  Result<TrialAnswer> answer(const TrialInPlan& at, const WhileWaiting& check) override {
     CHECK(rig_.lit);
     CHECK(rig_.shown.frame == at.trial.target);
     CHECK(rig_.show_of == std::to_string(at.block.condition));
     if (Status good = check(); !good) return good.fault();
-    if (++turns_ == pauses_at_) return Answer{Answer::Kind::pause, 0.0};
-    if (at.trial.number == 3) return Answer{Answer::Kind::gave_up, 0.0};
-    return Answer{Answer::Kind::matched, at.study.targets[static_cast<std::size_t>(at.trial.target)].actual_m};
+    if (++turns_ == pauses_at_) return TrialAnswer{TrialAnswer::Kind::pause, 0.0};
+    if (at.trial.number == 3) return TrialAnswer{TrialAnswer::Kind::gave_up, 0.0};
+    return TrialAnswer{TrialAnswer::Kind::matched,
+                       at.study.targets[static_cast<std::size_t>(at.trial.target)].actual_m};
   }
-  Result<Choice> trouble(const std::string& what) override {
+  Result<TrialChoice> trouble(const std::string& what) override {
     CHECK_FALSE(rig_.lit);
     troubles.push_back(what);
-    return Choice::go_on;
+    return TrialChoice::go_on;
   }
   bool lifts_darkness() const override { return true; }
   Result<std::optional<bool>> question(const std::string&) override { return std::optional(true); }

@@ -15,7 +15,7 @@ using namespace focalstage;
 
 namespace {
 
-Response response_to(const Study& study, const std::string& participant, const Block& block, const Trial& trial,
+Response response_to(const Study& study, const std::string& participant, const TrialBlock& block, const Trial& trial,
                      const ScriptedParticipant& script) {
   const auto answer = script.answer(study, participant, block, trial);
   Response response;
@@ -46,7 +46,7 @@ void answer(const std::filesystem::path& folder, const Study& study, int index, 
   const std::string participant = study.participants[static_cast<std::size_t>(index)];
   auto log = AnswerLog::open(folder, study, participant);
   REQUIRE(log);
-  for (const Block& block : plan_of(study, index)) {
+  for (const TrialBlock& block : plan_of(study, index)) {
     for (const Trial& trial : block.trials) {
       if (limit-- == 0) return;
       REQUIRE(log->add(response_to(study, participant, block, trial, *script)));
@@ -107,7 +107,7 @@ TEST_CASE("the report says what was left out, what was scripted and on what rig"
   const Study study = paper_study();
   for (int k = 0; k < 4; ++k) answer(folder.path(), study, k, "gives-up");
   answer(folder.path(), study, 4, "gives-up", 30);
-  const Report report = report_of(*load_answers(folder.path()));
+  const StudyReport report = report_of(*load_answers(folder.path()));
   CHECK(report.scripted());
   const std::string text = report_markdown(report, "plot.svg");
   CHECK(text.find("no human result") < text.find("## "));
@@ -125,7 +125,7 @@ TEST_CASE("the report says what was left out, what was scripted and on what rig"
 TEST_CASE("people's report has no such warning, and one without answers has no figures") {
   Answers answers;
   answers.study = paper_study();
-  const Report none = report_of(answers);
+  const StudyReport none = report_of(answers);
   CHECK_FALSE(none.scripted());
   const std::string text = report_markdown(none, "");
   CHECK(text.find("0 of 10 participants") != std::string::npos);
@@ -136,7 +136,7 @@ TEST_CASE("people's report has no such warning, and one without answers has no f
   answers.responses = {
       response_to(answers.study, "P01", plan[0], plan[0].trials[1], *ScriptedParticipant::named("exact"))};
   answers.responses[0].kind = human_kind;
-  const Report person = report_of(answers);
+  const StudyReport person = report_of(answers);
   CHECK(report_markdown(person, "").find("no human result") == std::string::npos);
   CHECK(report_svg(person).find("scripted") == std::string::npos);
 }

@@ -13,7 +13,7 @@ TEST_CASE("a study reads back as it was written, with its optional keys or witho
   study.missing = MissingRule::complete_participants;
   study.targets[1].cue.clear();
   study.targets[1].frame = 3;
-  study.conditions[1] = {"ready", "", "ready.h5", Variant::multifocal};
+  study.conditions[1] = {"ready", "", "ready.h5", ConditionVariant::multifocal};
   const auto read = parse_study(study_text(study), "s.json");
   REQUIRE(read);
   CHECK(*read == study);
@@ -27,7 +27,7 @@ TEST_CASE("a study reads back as it was written, with its optional keys or witho
   CHECK(least->training_trials == 1);
   CHECK(least->pointer.step_m == 0.001);
   CHECK(least->missing == MissingRule::answered_repetitions);
-  CHECK(least->conditions[0].variant == Variant::multifocal);
+  CHECK(least->conditions[0].variant == ConditionVariant::multifocal);
 }
 
 TEST_CASE("faults name file, place and code") {
