@@ -12,6 +12,7 @@ import random
 import select
 import signal
 import subprocess
+import termios
 import time
 import xml.etree.ElementTree
 
@@ -407,6 +408,7 @@ def test_keys_on_a_terminal():
         study = small_study(at, pointer={"from_m": 0.3, "to_m": 0.301, "step_m": 0.001}, targets=[
             {"name": "a", "cue": "333 mm", "actual_m": 0.3}, {"name": "b", "cue": "500 mm", "actual_m": 0.301}])
         leader, follower = pty.openpty()
+        modes = termios.tcgetattr(follower)
         process = subprocess.Popen([FOCALSTAGE, "trials", "run", str(study), "--participant", "P01", "--to", address],
                                    stdin=follower, stdout=follower, stderr=follower)
         heard = b""
@@ -438,8 +440,9 @@ def test_keys_on_a_terminal():
         hears(b"Trial 2 of 2")
         os.write(leader, b"q")
         hears(b"3 of 4 trials")
-        os.close(follower)
         assert process.wait(30) == DONE
+        assert termios.tcgetattr(follower) == modes
+        os.close(follower)
         os.close(leader)
         found = rows(study, "P01")
         assert [(r["response_m"], r["gave_up"]) for r in found] == [("0.3", "0"), ("0.3005", "0"), ("", "1")], found
