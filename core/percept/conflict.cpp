@@ -31,6 +31,14 @@ std::vector<float> conflict_map(const ThingMap& things, const DrivenFocus& focus
   return map;
 }
 
+std::array<std::uint8_t, 3> conflict_colour(double conflict_d) {
+  constexpr double full_d = 2.0;
+  if (std::abs(conflict_d) <= comfort_d) return {0, 160, 0};
+  const auto strong = static_cast<std::uint8_t>(80.0 + 175.0 * std::min(1.0, std::abs(conflict_d) / full_d));
+  if (conflict_d > 0.0) return {strong, 0, 0};
+  return {0, 0, strong};
+}
+
 std::vector<ThingConflict> thing_conflicts(const ThingMap& things, const DrivenFocus& focus) {
   const std::vector<float> map = conflict_map(things, focus);
   std::vector<std::vector<LitConflict>> lit(things.things.size());

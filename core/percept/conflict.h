@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "core/percept/things.h"
@@ -14,6 +16,10 @@ inline constexpr double comfort_d = 0.5;
 /// The vergence-accommodation conflict: where the eyes converge less where the show lets them focus, in dioptres, pixel
 /// by pixel; positive: the focus lies further away. NaN where nothing stands or nothing is lit.
 std::vector<float> conflict_map(const ThingMap& things, const DrivenFocus& focus);
+
+/// How a conflict is shown: green within the zone of comfort, red where the focus lies further away, blue where it lies
+/// nearer, the stronger the larger, at 2 D in full.
+std::array<std::uint8_t, 3> conflict_colour(double conflict_d);
 
 /// Of one thing, over its lit pixels by their light.
 struct ThingConflict {

@@ -24,7 +24,7 @@ struct Seen {
 };
 
 template <class Staged>
-void add_things(const std::vector<Staged>& staged, Thing::Kind kind, ThingMap& map, Seen& seen) {
+void add_things(const std::vector<Staged>& staged, SeenThing::Kind kind, ThingMap& map, Seen& seen) {
   for (const Staged& one : staged) {
     const auto own = static_cast<std::int32_t>(map.things.size());
     map.things.push_back({kind, one.name, one.index});
@@ -70,8 +70,8 @@ ThingMap things_seen(const RetinaInput& input, const RetinaView& view, const Pro
   const Eye eye = eye_of(input, view);
   const LookGrid grid = grid_of(view, 0);
   Seen objects, surfaces;
-  add_things(input.stage->objects, Thing::Kind::object, map, objects);
-  add_things(input.stage->surfaces, Thing::Kind::surface, map, surfaces);
+  add_things(input.stage->objects, SeenThing::Kind::object, map, objects);
+  add_things(input.stage->surfaces, SeenThing::Kind::surface, map, surfaces);
   for (Seen* seen : {&objects, &surfaces}) {
     seen->raster = raster_surfaces(seen->mesh, eye.eye_from_world, grid, eye.lens_to_pupil_m + nearest_m, stop);
     if (stop.stop_requested()) return map;

@@ -10,14 +10,14 @@
 namespace focalstage {
 
 /// A named thing of the stage.
-struct Thing {
+struct SeenThing {
   enum class Kind { object, surface };
 
   Kind kind = Kind::object;
   std::string name;
   std::size_t index = 0;  ///< in the project's list
 
-  bool operator==(const Thing&) const = default;
+  bool operator==(const SeenThing&) const = default;
 };
 
 /// What stands where an eye looks: virtual objects where they are meant to appear, and behind them real surfaces.
@@ -26,7 +26,7 @@ struct ThingMap {
 
   int width_px = 0;
   int height_px = 0;
-  std::vector<Thing> things;        ///< objects first, both as the stage lists them
+  std::vector<SeenThing> things;        ///< objects first, both as the stage lists them
   std::vector<std::int32_t> thing;  ///< [row][column], rows from the top
   std::vector<float> vergence_d;  ///< 1 / axial distance from the lens centre: what the eyes converge on; NaN: nothing
 

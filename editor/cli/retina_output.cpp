@@ -1,6 +1,7 @@
 #include "editor/cli/retina_output.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "editor/cli/output.h"
@@ -8,15 +9,13 @@
 namespace focalstage {
 namespace {
 
-constexpr double full_colour_d = 2.0;
-
-std::string kind_of(const Thing& thing) { return thing.kind == Thing::Kind::object ? "object" : "surface"; }
+std::string kind_of(const SeenThing& thing) { return thing.kind == SeenThing::Kind::object ? "object" : "surface"; }
 
 /// Numbers that may not exist are null.
 Value number_or_null(double value) { return std::isfinite(value) ? Value(value) : Value(); }
 
 Value thing_value(const RetinaReport& report, std::size_t i) {
-  const Thing& thing = report.things.things[i];
+  const SeenThing& thing = report.things.things[i];
   const ThingLook& look = report.looks[i];
   const ThingConflict& conflict = report.conflicts[i];
   Value value;
@@ -75,7 +74,7 @@ std::string retina_text(const RetinaRun& run, const RetinaView& view, const Reti
   }
   std::vector<std::vector<std::string>> rows;
   for (std::size_t i = 0; i < report.things.things.size(); ++i) {
-    const Thing& thing = report.things.things[i];
+    const SeenThing& thing = report.things.things[i];
     const ThingLook& look = report.looks[i];
     const ThingConflict& conflict = report.conflicts[i];
     const bool seen = look.pixels > 0, lit = conflict.light > 0.0;
@@ -100,10 +99,8 @@ std::vector<std::uint8_t> conflict_colours(const std::vector<float>& conflict_d)
   std::vector<std::uint8_t> rgb(3 * conflict_d.size(), 0);
   for (std::size_t i = 0; i < conflict_d.size(); ++i) {
     if (std::isnan(conflict_d[i])) continue;
-    const double size_d = std::abs(double{conflict_d[i]});
-    const auto strong = static_cast<std::uint8_t>(80.0 + 175.0 * std::min(1.0, size_d / full_colour_d));
-    const std::size_t channel = size_d <= comfort_d ? 1 : conflict_d[i] > 0.0f ? 0 : 2;
-    rgb[3 * i + channel] = channel == 1 ? 160 : strong;
+    const std::array<std::uint8_t, 3> colour = conflict_colour(conflict_d[i]);
+    std::copy(colour.begin(), colour.end(), rgb.begin() + static_cast<std::ptrdiff_t>(3 * i));
   }
   return rgb;
 }

@@ -26,8 +26,7 @@ Value retina_value(const RetinaRun& run, const RetinaView& view, const RetinaInp
 std::string retina_text(const RetinaRun& run, const RetinaView& view, const RetinaInput& input,
                         const RetinaReport& report);
 
-/// 8-bit RGB: green within the zone of comfort, red where the focus lies further away than the eyes converge, blue
-/// where it lies nearer; full colour at 2 D; black where there is no conflict to speak of.
+/// 8-bit RGB by `conflict_colour`; black where nothing is lit.
 std::vector<std::uint8_t> conflict_colours(const std::vector<float>& conflict_d);
 
 }  // namespace focalstage

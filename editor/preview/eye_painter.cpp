@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/percept/conflict.h"
 #include "core/percept/seen_frame.h"
 #include "editor/tools/srgb.h"
 
@@ -40,12 +41,12 @@ RetinaInput retina_input(const CompiledSlices& compiled, const Schedule& schedul
                     side);
 }
 
-RetinaView retina_view(const EyeWish& wish, Side side) {
+RetinaView retina_view(const EyeWish& wish, Side side, std::size_t panels) {
   RetinaView view;
   view.eye = side;
   view.focus_d = wish.focus_d;
   view.pupil_m = wish.pupil_mm / 1000.0;
-  view.width_px = wish.width_px;
+  view.width_px = std::max(1, wish.width_px / static_cast<int>(panels));
   view.height_px = wish.height_px;
   view.fov_deg = wish.fov_deg;
   view.head_offset_m = wish.head_offset_m;
@@ -74,8 +75,9 @@ const Schedule& EyePainter::schedule_of(const CompiledSlices& compiled) {
   return schedule_;
 }
 
-RetinaInput EyePainter::input_for(const CompiledSlices& compiled, const EyeWish& wish, Side side) {
-  if (wish.conventional) return conventional_input(compiled, side);
+RetinaInput EyePainter::input_for(const CompiledSlices& compiled, const EyeWish& wish, const EyePanel& panel,
+                                  Side side) {
+  if (panel.projection == EyeProjection::conventional) return conventional_input(compiled, side);
   return retina_input(compiled, schedule_of(compiled), side, wish);
 }
 
@@ -93,38 +95,112 @@ Status EyePainter::make_conventional(const CompiledSlices& compiled, SliceMaker&
   return {};
 }
 
-Result<EyePicture> EyePainter::paint(const CompiledSlices& compiled, const EyeWish& wish, SliceMaker& maker,
-                                     std::stop_token stop) {
-  if (wish.conventional) {
-    if (Status made = make_conventional(compiled, maker, stop); !made) return made.fault();
-  }
-  EyePicture picture{compiled.revision, compiled.divisor, wish.width_px, wish.height_px, wish.focus_d, {}};
-  picture.rgb.assign(static_cast<std::size_t>(wish.width_px) * static_cast<std::size_t>(wish.height_px) * 3, 0);
-  const bool both = wish.left && wish.right;
+Status EyePainter::paint_panel(const CompiledSlices& compiled, const EyeWish& wish, std::size_t panel,
+                               EyePicture& picture, const std::stop_token& stop) {
+  const EyeLook look = picture.panels[panel].look;
   for (const Side side : both_sides) {
-    if (!(side == Side::left ? wish.left : wish.right)) continue;
-    const auto seen = retinas_[index_of(side)].view(input_for(compiled, wish, side), retina_view(wish, side), stop);
+    if (look != EyeLook::red_cyan && look != (side == Side::left ? EyeLook::left : EyeLook::right)) continue;
+    const RetinaView view = retina_view(wish, side, picture.panels.size());
+    const auto seen =
+        retina_of(picture.panels[panel], side).view(input_for(compiled, wish, picture.panels[panel], side), view, stop);
     if (!seen) return seen.fault();
-    for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
-      const float* light = &seen->rgb[i];
-      if (!both) {
-        for (std::size_t c = 0; c < 3; ++c) picture.rgb[i + c] = srgb_code(light[c]);
+    const auto first = static_cast<std::size_t>(view.width_px) * panel;
+    for (std::size_t i = 0; i < seen->rgb.size() / 3; ++i) {
+      const float* light = &seen->rgb[3 * i];
+      const auto width = static_cast<std::size_t>(view.width_px);
+      std::uint8_t* rgb =
+          &picture.rgb[3 * (i / width * static_cast<std::size_t>(picture.width_px) + first + i % width)];
+      if (look != EyeLook::red_cyan) {
+        for (std::size_t c = 0; c < 3; ++c) rgb[c] = srgb_code(light[c]);
       } else if (side == Side::left) {
-        picture.rgb[i] = srgb_code(luminance(light));
+        rgb[0] = srgb_code(luminance(light));
       } else {
-        picture.rgb[i + 1] = picture.rgb[i + 2] = srgb_code(luminance(light));
+        rgb[1] = rgb[2] = srgb_code(luminance(light));
       }
     }
+  }
+  return {};
+}
+
+/// Tints a panel where its eye (the left one, if both) would have to converge and to focus at different distances.
+Status EyePainter::add_conflicts(const CompiledSlices& compiled, const EyeWish& wish, std::size_t panel,
+                                 EyePicture& picture, const std::stop_token& stop) {
+  constexpr double tint = 0.55, comfortable_tint = 0.2;
+  const Side side = picture.panels[panel].look == EyeLook::right ? Side::right : Side::left;
+  const RetinaInput input = input_for(compiled, wish, picture.panels[panel], side);
+  const RetinaView view = retina_view(wish, side, picture.panels.size());
+  const auto focus = retina_of(picture.panels[panel], side).driven_focus(input, view, stop);
+  if (!focus) return focus.fault();
+  const ThingMap things = things_seen(input, view, {}, stop);
+  if (stop.stop_requested()) return Fault{"retina.cancelled", "", "stopped before the picture was done", ""};
+  const std::vector<float> map = conflict_map(things, *focus);
+  const auto width = static_cast<std::size_t>(view.width_px);
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    if (std::isnan(map[i])) continue;
+    const auto colour = conflict_colour(map[i]);
+    const double share = std::abs(map[i]) <= comfort_d ? comfortable_tint : tint;
+    std::uint8_t* rgb =
+        &picture.rgb[3 * (i / width * static_cast<std::size_t>(picture.width_px) + width * panel + i % width)];
+    for (std::size_t c = 0; c < 3; ++c) {
+      rgb[c] = static_cast<std::uint8_t>(std::lround((1.0 - share) * rgb[c] + share * colour[c]));
+    }
+  }
+  if (panel > 0) return {};
+  for (const ThingConflict& conflict : thing_conflicts(things, *focus)) {
+    const SeenThing& thing = things.things[conflict.thing];
+    if (thing.kind == SeenThing::Kind::object && conflict.light > 0.0)
+      picture.conflicts.push_back({thing.name, conflict.mean_d});
+  }
+  return {};
+}
+
+std::vector<EyePanel> panels_of(const EyeWish& wish) {
+  std::vector<EyePanel> panels;
+  for (const EyeProjection projection : {EyeProjection::multifocal, EyeProjection::conventional}) {
+    if (wish.projection != EyeProjection::both && wish.projection != projection) continue;
+    if (wish.look == EyeLook::side_by_side) {
+      panels.push_back({EyeLook::left, projection});
+      panels.push_back({EyeLook::right, projection});
+    } else {
+      panels.push_back({wish.look, projection});
+    }
+  }
+  return panels;
+}
+
+Result<EyePicture> EyePainter::paint(const CompiledSlices& compiled, const EyeWish& wish, SliceMaker& maker,
+                                     std::stop_token stop) {
+  if (wish.projection != EyeProjection::multifocal) {
+    if (Status made = make_conventional(compiled, maker, stop); !made) return made.fault();
+  }
+  EyePicture picture;
+  picture.revision = compiled.revision;
+  picture.divisor = compiled.divisor;
+  picture.width_px = wish.width_px;
+  picture.height_px = wish.height_px;
+  picture.focus_d = wish.focus_d;
+  picture.panels = panels_of(wish);
+  picture.rgb.assign(static_cast<std::size_t>(wish.width_px) * static_cast<std::size_t>(wish.height_px) * 3, 0);
+  for (std::size_t panel = 0; panel < picture.panels.size(); ++panel) {
+    if (Status done = paint_panel(compiled, wish, panel, picture, stop); !done) return done.fault();
+    if (!wish.conflict) continue;
+    if (Status done = add_conflicts(compiled, wish, panel, picture, stop); !done) return done.fault();
   }
   return picture;
 }
 
 Result<std::optional<double>> EyePainter::focus_at(const CompiledSlices& compiled, const EyeWish& wish, glm::dvec2 at) {
-  const Side side = wish.left ? Side::left : Side::right;
-  const RetinaView view = retina_view(wish, side);
-  const glm::dvec2 look = look_of_pixel(view, at * glm::dvec2(view.width_px, view.height_px));
+  const std::vector<EyePanel> panels = panels_of(wish);
+  const auto count = static_cast<double>(panels.size());
+  const double panel = std::clamp(std::floor(at.x * count), 0.0, count - 1.0);
+  const EyePanel& asked = panels[static_cast<std::size_t>(panel)];
+  const Side side = asked.look == EyeLook::right ? Side::right : Side::left;
+  const RetinaView view = retina_view(wish, side, panels.size());
+  const glm::dvec2 within{at.x * count - panel, at.y};
+  const glm::dvec2 look = look_of_pixel(view, within * glm::dvec2(view.width_px, view.height_px));
+  // What can be focused on is what the sweep puts there, also where a conventional projection stands beside it.
   const auto sight =
-      retinas_[index_of(side)].look_at(retina_input(compiled, schedule_of(compiled), side, wish), view, look);
+      retinas_[index_of(side)][0].look_at(retina_input(compiled, schedule_of(compiled), side, wish), view, look);
   if (!sight) return sight.fault();
   if (!*sight) return std::optional<double>{};
   return std::optional<double>{(*sight)->vergence_d};

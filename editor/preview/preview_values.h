@@ -42,29 +42,51 @@ struct CheckedProject {
   std::vector<Finding> findings;
 };
 
-/// What one eye (or both, red-cyan) sees.
+enum class EyeLook { left, right, red_cyan, side_by_side };
+/// The sweep, one slice at 0 D as a projection without it would show, or both beside each other.
+enum class EyeProjection { multifocal, conventional, both };
+
+/// How to look: what of the view state the eye's picture depends on.
+struct EyeWish {
+  EyeLook look = EyeLook::left;
+  double focus_d = 2.0;
+  double pupil_mm = 4.0;
+  EyeProjection projection = EyeProjection::multifocal;
+  bool conflict = false;  ///< tint what vergence and accommodation disagree about
+  glm::dvec3 head_offset_m{0.0};
+  double fov_deg = 40.0;  ///< of each panel
+  int width_px = 400;     ///< of all panels
+  int height_px = 300;
+  std::optional<double> sweep_time_s;  ///< only the exposure at that moment
+  bool operator==(const EyeWish&) const = default;
+};
+
+/// A part of the eye's picture, from left to right.
+struct EyePanel {
+  EyeLook look = EyeLook::left;  ///< never side_by_side
+  EyeProjection projection = EyeProjection::multifocal;
+  bool operator==(const EyePanel&) const = default;
+};
+
+/// The panels that a wish asks for.
+std::vector<EyePanel> panels_of(const EyeWish& wish);
+
+/// How far vergence and accommodation part over one thing, as the first panel shows it.
+struct NamedConflict {
+  std::string name;
+  double mean_d = 0.0;  ///< positive: the focus lies further away
+};
+
+/// What is seen.
 struct EyePicture {
   std::uint64_t revision = 0;
   int divisor = 1;
   int width_px = 0;
   int height_px = 0;
   double focus_d = 0.0;
-  std::vector<std::uint8_t> rgb;  ///< rows from the top, sRGB
-};
-
-/// How to look: what of the view state the eye's picture depends on.
-struct EyeWish {
-  bool left = true;
-  bool right = false;  ///< both: red-cyan
-  double focus_d = 2.0;
-  double pupil_mm = 4.0;
-  bool conventional = false;
-  glm::dvec3 head_offset_m{0.0};
-  double fov_deg = 40.0;
-  int width_px = 400;
-  int height_px = 300;
-  std::optional<double> sweep_time_s;  ///< only the exposure at that moment
-  bool operator==(const EyeWish&) const = default;
+  std::vector<EyePanel> panels;
+  std::vector<NamedConflict> conflicts;  ///< of what is lit, where asked for
+  std::vector<std::uint8_t> rgb;         ///< rows from the top, sRGB
 };
 
 /// "Focus here": at which accommodation is what the eye's picture shows at `at` (0..1 from its top left corner) sharp?

@@ -19,17 +19,7 @@ std::string needs_slices(const Session& session) {
 
 ViewExport export_of(const Session::State& state, const Value& args, const char* folder) {
   const ViewState& view = state.view;
-  EyeWish eye{view.eye != EyeShown::right,
-              view.eye != EyeShown::left,
-              view.focus_d,
-              view.pupil_mm,
-              view.conventional,
-              view.head_offset_m,
-              view.fov_deg,
-              stills_width_px,
-              stills_height_px,
-              {}};
-  return {state.document->history().now(), state.stage, eye,
+  return {state.document->history().now(), state.stage, eye_wish(view, {stills_width_px, stills_height_px}),
           text_or(args, "path", (state.document->folder() / folder).string())};
 }
 

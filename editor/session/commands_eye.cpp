@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <string_view>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -24,25 +26,53 @@ Status nudge_focus(Session& session, const Value&) {
   return {};
 }
 
+/// args: projection: multifocal, conventional or both; on: conventional or not; none: the other of the two
 Status conventional(Session& session, const Value& args) {
-  session.view().conventional = flag_or(args, "on", !session.view().conventional);
+  EyeProjection& projection = session.view().projection;
+  const std::string wanted = text_or(args, "projection", "");
+  const bool on = flag_or(args, "on", projection != EyeProjection::conventional);
+  if (wanted == "both") {
+    projection = EyeProjection::both;
+  } else if (wanted.empty() || wanted == "conventional" || wanted == "multifocal") {
+    const bool one = wanted.empty() ? on : wanted == "conventional";
+    projection = one ? EyeProjection::conventional : EyeProjection::multifocal;
+  } else {
+    return Fault{"command.argument", "projection", "is multifocal, conventional or both", ""};
+  }
   return {};
 }
 
-/// args: eye: left, right or red-cyan; none: the next of them
+Status beside(Session& session, const Value& args) {
+  EyeProjection& projection = session.view().projection;
+  const bool on = flag_or(args, "on", projection != EyeProjection::both);
+  projection = on ? EyeProjection::both : EyeProjection::multifocal;
+  return {};
+}
+
+Status conflict(Session& session, const Value& args) {
+  session.view().conflict = flag_or(args, "on", !session.view().conflict);
+  return {};
+}
+
+constexpr std::array<std::pair<std::string_view, EyeLook>, 4> looks{{{"left", EyeLook::left},
+                                                                     {"right", EyeLook::right},
+                                                                     {"red-cyan", EyeLook::red_cyan},
+                                                                     {"side-by-side", EyeLook::side_by_side}}};
+
+/// args: eye: left, right, red-cyan or side-by-side; none: the next of them
 Status which(Session& session, const Value& args) {
-  EyeShown& eye = session.view().eye;
+  EyeLook& eye = session.view().eye;
   const std::string wanted = text_or(args, "eye", "");
-  if (wanted == "left" || (wanted.empty() && eye == EyeShown::red_cyan)) {
-    eye = EyeShown::left;
-  } else if (wanted == "right" || (wanted.empty() && eye == EyeShown::left)) {
-    eye = EyeShown::right;
-  } else if (wanted == "red-cyan" || wanted.empty()) {
-    eye = EyeShown::red_cyan;
+  const auto named = std::find_if(looks.begin(), looks.end(), [&](const auto& look) { return look.first == wanted; });
+  if (wanted.empty()) {
+    eye = looks[(static_cast<std::size_t>(eye) + 1) % looks.size()].second;
+  } else if (named != looks.end()) {
+    eye = named->second;
   } else {
-    return Fault{"command.argument", "eye", "is left, right or red-cyan", ""};
+    return Fault{"command.argument", "eye", "is left, right, red-cyan or side-by-side", ""};
   }
-  if (eye != EyeShown::red_cyan) session.view().side = eye == EyeShown::left ? Side::left : Side::right;
+  if (eye == EyeLook::left) session.view().side = Side::left;
+  if (eye == EyeLook::right) session.view().side = Side::right;
   return {};
 }
 
@@ -64,7 +94,13 @@ void add_eye_commands(CommandList& list) {
   add({"eye.farther", "Focus farther", "[", "A tenth of a dioptre", "", true, needs_project, nudge_focus<-1>});
   add({"eye.conventional", "Conventional or multifocal", "C", "One slice at 0 D, as without the sweep", "compare", true,
        needs_project, conventional});
-  add({"eye.which", "Left, right or red-cyan", "E", "Which eye the eye view shows", "eye", true, needs_project, which});
+  add({"eye.beside", "Multifocal beside conventional", "Shift+C", "Both at once, at the same focus", "compare", true,
+       needs_project, beside});
+  add({"eye.conflict", "Show the vergence-accommodation conflict", "V",
+       "Red: the focus lies further away than the eyes converge; blue: nearer; green: within 0.5 D", "exchange", true,
+       needs_project, conflict});
+  add({"eye.which", "Left, right, red-cyan or side by side", "E", "Which eye the eye view shows", "eye", true,
+       needs_project, which});
   add({"eye.head", "Move the head", "", "", "", false, needs_project, head});
 }
 

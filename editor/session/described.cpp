@@ -38,7 +38,9 @@ Value value_of(const ViewState& view) {
   value.set("playing", view.playing);
   value.set("focus_d", view.focus_d);
   value.set("pupil_mm", view.pupil_mm);
-  value.set("conventional", view.conventional);
+  value.set("conventional", view.projection == EyeProjection::conventional);
+  value.set("beside", view.projection == EyeProjection::both);
+  value.set("conflict", view.conflict);
   value.set("image", view.image);
   value.set("azimuth_deg", view.camera.azimuth_deg);
   value.set("elevation_deg", view.camera.elevation_deg);

@@ -44,9 +44,8 @@ Status prepare(Painting& painting, const ViewExport& wanted, std::stop_token sto
   return {};
 }
 
-Result<EyePicture> paint(Painting& painting, EyeWish eye, bool left, bool right, std::stop_token stop) {
-  eye.left = left;
-  eye.right = right;
+Result<EyePicture> paint(Painting& painting, EyeWish eye, EyeLook look, std::stop_token stop) {
+  eye.look = look;
   return painting.painter.paint(painting.compiled, eye, painting.maker, std::move(stop));
 }
 
@@ -93,11 +92,11 @@ std::string numbered(int k) {
 Result<Files> export_stereo(const ViewExport& wanted, std::stop_token stop) {
   Painting painting;
   if (Status ready = prepare(painting, wanted, stop); !ready) return ready.fault();
-  const auto left = paint(painting, wanted.eye, true, false, stop);
+  const auto left = paint(painting, wanted.eye, EyeLook::left, stop);
   if (!left) return left.fault();
-  const auto right = paint(painting, wanted.eye, false, true, stop);
+  const auto right = paint(painting, wanted.eye, EyeLook::right, stop);
   if (!right) return right.fault();
-  const auto red_cyan = paint(painting, wanted.eye, true, true, stop);
+  const auto red_cyan = paint(painting, wanted.eye, EyeLook::red_cyan, stop);
   if (!red_cyan) return red_cyan.fault();
   Files written;
   const std::array<std::pair<const char*, const EyePicture*>, 3> singles{
@@ -121,7 +120,7 @@ Result<Files> export_focal_pull(const ViewExport& wanted, double from_d, double 
     const double share = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * k / frames);
     EyeWish eye = wanted.eye;
     eye.focus_d = from_d + share * (to_d - from_d);
-    const auto picture = paint(painting, eye, wanted.eye.left, wanted.eye.right, stop);
+    const auto picture = paint(painting, eye, wanted.eye.look, stop);
     if (!picture) return picture.fault();
     if (Status done = write(*picture, wanted.folder / numbered(k), written); !done) return done.fault();
     progress(static_cast<double>(k + 1) / frames);

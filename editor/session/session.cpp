@@ -124,16 +124,8 @@ void Session::State::wish_preview() {
   wish.stage = stage;
   wish.moving = dragging || view.playing;
   wish.uncompensated = view.compensation != Compensation::on;
-  wish.eye = {view.eye != EyeShown::right,
-              view.eye != EyeShown::left,
-              view.focus_d,
-              view.pupil_mm,
-              view.conventional,
-              view.head_offset_m,
-              view.fov_deg,
-              eye_size_px.x,
-              eye_size_px.y,
-              view.sweep_time_s};
+  wish.eye = eye_wish(view, eye_size_px);
+  wish.eye.sweep_time_s = view.sweep_time_s;
   wish.focus_at = focus_question;
   preview.want(std::move(wish));
   rig.show({revision(), view.frame, document->history().now(), document->folder()});

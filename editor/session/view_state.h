@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/base/sides.h"
+#include "editor/preview/preview_values.h"
 #include "editor/session/thing.h"
 #include "editor/tools/handle_frame.h"
 #include "editor/tools/room_camera.h"
@@ -17,7 +18,6 @@ enum class PaneId { room, projector, eye, time };
 enum class LookThrough { nothing, left_eye, right_eye, projector };
 enum class Compensation { on, off, difference };
 enum class ProjectorPicture { slice, assignment };
-enum class EyeShown { left, right, red_cyan };
 
 /// What the views show and how: nothing of this is the project's.
 struct ViewState {
@@ -41,10 +41,11 @@ struct ViewState {
   double zoom = 0.0;  ///< screen pixels per projector pixel; 0: fit
   glm::dvec2 pan_px{0.0};
 
-  EyeShown eye = EyeShown::left;
+  EyeLook eye = EyeLook::left;
   double focus_d = 2.0;  ///< accommodation, as a vergence from the lens centre
   double pupil_mm = 4.0;
-  bool conventional = false;      ///< one slice at 0 D instead of the sweep
+  EyeProjection projection = EyeProjection::multifocal;
+  bool conflict = false;          ///< tint what vergence and accommodation disagree about, in eye and room
   glm::dvec3 head_offset_m{0.0};  ///< in the viewer's axes, at most 5 cm
   double fov_deg = 40.0;
 
@@ -59,5 +60,11 @@ struct ViewState {
 
   bool operator==(const ViewState&) const = default;
 };
+
+/// What the eye's view asks for, as a picture of `size_px`; over the whole period.
+inline EyeWish eye_wish(const ViewState& view, const glm::ivec2& size_px) {
+  return {view.eye,           view.focus_d, view.pupil_mm, view.projection, view.conflict,
+          view.head_offset_m, view.fov_deg, size_px.x,     size_px.y,       {}};
+}
 
 }  // namespace focalstage

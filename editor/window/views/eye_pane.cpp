@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/percept/conflict.h"
 #include "editor/session/session.h"
 #include "editor/tools/fixed_text.h"
 #include "editor/window/base/chips.h"
@@ -23,6 +24,23 @@ std::string distance_words(double focus_d) {
   if (focus_d < 0.02) return focus_d > -0.02 ? "infinity" : "beyond infinity";
   return fixed_text(1.0 / focus_d, focus_d > 1.0 ? 2 : 1) + " m";
 }
+
+const char* look_words(EyeLook look) {
+  switch (look) {
+    case EyeLook::left:
+      return "Left";
+    case EyeLook::right:
+      return "Right";
+    case EyeLook::red_cyan:
+      return "Red-cyan";
+    case EyeLook::side_by_side:
+      return "Side by side";
+  }
+  return "";
+}
+
+/// Of the row of chips at the top, with the gap below it.
+float chips_height() { return ImGui::GetFrameHeight() + px(16); }
 
 float controls_height() { return ImGui::GetFrameHeight() + px(16); }
 
@@ -58,7 +76,9 @@ void EyePane::draw(Session& session, const PaneRect& rect) {
     return;
   }
   answer_mouse(session, rect);
+  draw_panels(rect);
   draw_chips(session, rect);
+  draw_conflicts(session, rect);
   if (rect.size.y > 4.0f * controls_height()) draw_controls(session, rect);
 }
 
@@ -90,20 +110,86 @@ void EyePane::answer_mouse(Session& session, const PaneRect& rect) {
 void EyePane::draw_chips(Session& session, const PaneRect& rect) {
   const ViewState& view = session.view();
   Chips chips(rect, Chips::Corner::top_right);
+  ButtonStyle conflict;
+  conflict.icon = "exchange";
+  conflict.down = view.conflict;
+  conflict.tip = {"Where vergence and accommodation part: red where the focus lies further away, blue where nearer", "V",
+                  {}};
+  if (chips.button("conflict", "", conflict)) (void)session.run("eye.conflict");
   ButtonStyle kind;
   kind.icon = "compare";
-  kind.down = view.conventional;
-  kind.tip = {"Against a conventional projection: one slice at 0 D, no sweep", "C", {}};
-  if (chips.button("conventional", view.conventional ? "Conventional" : "Multifocal", kind)) {
-    (void)session.run("eye.conventional");
+  kind.down = view.projection != EyeProjection::multifocal;
+  kind.tip = {"Multifocal, conventional (one slice at 0 D, no sweep), or both beside each other", "C, Shift+C", {}};
+  const char* const shown = view.projection == EyeProjection::both           ? "Both"
+                            : view.projection == EyeProjection::conventional ? "Conventional"
+                                                                             : "Multifocal";
+  if (chips.button("conventional", shown, kind)) {
+    Value next;
+    next.set("projection", view.projection == EyeProjection::multifocal     ? "conventional"
+                           : view.projection == EyeProjection::conventional ? "both"
+                                                                            : "multifocal");
+    (void)session.run("eye.conventional", next);
   }
   ButtonStyle which;
   which.icon = "eye";
-  which.tip = {"Left eye, right eye, or both red-cyan", "E", {}};
-  const char* eye = view.eye == EyeShown::left ? "Left" : view.eye == EyeShown::right ? "Right" : "Red-cyan";
-  if (chips.button("which", eye, which)) (void)session.run("eye.which");
+  which.tip = {"Left eye, right eye, both red-cyan, or side by side", "E", {}};
+  if (chips.button("which", look_words(view.eye), which)) (void)session.run("eye.which");
   const auto picture = session.eye_picture();
   if (picture->divisor > 1) chips.label("", picture->divisor == 2 ? "half size" : "quarter size");
+}
+
+/// Lines between the panels, and what each is where they differ.
+void EyePane::draw_panels(const PaneRect& rect) {
+  if (!shown_ || shown_->panels.size() < 2) return;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const std::size_t count = shown_->panels.size();
+  const float width = rect.size.x / static_cast<float>(count);
+  const bool looks = shown_->panels.front().look != shown_->panels.back().look;
+  const bool projections = shown_->panels.front().projection != shown_->panels.back().projection;
+  for (std::size_t i = 0; i < count; ++i) {
+    const EyePanel& panel = shown_->panels[i];
+    const float left = rect.min.x + width * static_cast<float>(i);
+    if (i > 0) list.AddLine({left, rect.min.y}, {left, rect.min.y + rect.size.y}, theme::line, px(1));
+    std::string words = looks ? look_words(panel.look) : "";
+    if (projections) {
+      if (!words.empty()) words += ", ";
+      words += panel.projection == EyeProjection::conventional ? "conventional" : "multifocal";
+    }
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+    if (size.x + px(16) > width) continue;
+    const glm::vec2 min(left + 0.5f * (width - size.x), rect.min.y + chips_height());
+    list.AddRectFilled({min.x - px(6), min.y - px(3)}, {min.x + size.x + px(6), min.y + size.y + px(3)}, theme::chip,
+                       px(3));
+    list.AddText(to_im(min), theme::text, words.c_str());
+  }
+}
+
+/// What the tints amount to, thing by thing, the worst first; as many as there is room for.
+void EyePane::draw_conflicts(const Session& session, const PaneRect& rect) {
+  if (!session.view().conflict || !shown_ || shown_->conflicts.empty()) return;
+  std::vector<NamedConflict> worst = shown_->conflicts;
+  std::stable_sort(worst.begin(), worst.end(), [](const NamedConflict& a, const NamedConflict& b) {
+    return std::abs(a.mean_d) > std::abs(b.mean_d);
+  });
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float line = ImGui::GetTextLineHeightWithSpacing(), gap = px(8);
+  const float top = rect.min.y + 2.0f * chips_height();
+  const float room = rect.size.y - 2.0f * chips_height() - controls_height() - 4.0f * gap;
+  const auto rows = std::min(worst.size(), static_cast<std::size_t>(std::max(0.0f, room / line)));
+  const float width = std::min(px(210), rect.size.x - 2.0f * gap);
+  if (rows == 0) return;
+  const glm::vec2 min(rect.min.x + gap, top);
+  list.AddRectFilled(to_im(min), {min.x + width, min.y + line * static_cast<float>(rows) + gap}, theme::chip, px(4));
+  for (std::size_t i = 0; i < rows; ++i) {
+    const float y = min.y + 0.5f * gap + line * static_cast<float>(i);
+    const std::string amount = signed_text(worst[i].mean_d, 2) + " D";
+    const float amount_width = ImGui::CalcTextSize(amount.c_str()).x;
+    const bool beyond = std::abs(worst[i].mean_d) > comfort_d;
+    list.PushClipRect({min.x, y}, {min.x + width - amount_width - 2.0f * gap, y + line}, true);
+    list.AddText({min.x + gap, y}, theme::text, worst[i].name.c_str());
+    list.PopClipRect();
+    list.AddText({min.x + width - gap - amount_width, y}, beyond ? theme::red : theme::dim, amount.c_str());
+  }
 }
 
 void EyePane::draw_controls(Session& session, const PaneRect& rect) {

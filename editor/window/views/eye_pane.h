@@ -9,8 +9,8 @@
 
 namespace focalstage {
 
-/// What an eye sees at a focus that a hand can set: either eye or both red-cyan, as multifocal or as conventional
-/// projection; the head can be moved a little.
+/// What an eye sees at a focus that a hand can set: either eye, both red-cyan or side by side; the sweep, a conventional
+/// projection, or both; where vergence and accommodation part. The head can be moved a little.
 class EyePane : public Pane {
  public:
   std::string_view title() const override { return "Eye"; }
@@ -23,6 +23,8 @@ class EyePane : public Pane {
  private:
   void draw_controls(Session& session, const PaneRect& rect);
   void draw_chips(Session& session, const PaneRect& rect);
+  void draw_panels(const PaneRect& rect);
+  void draw_conflicts(const Session& session, const PaneRect& rect);
   void draw_head(Session& session, const PaneRect& rect);
   void answer_mouse(Session& session, const PaneRect& rect);
 
