@@ -43,7 +43,7 @@ focalstage_room(editor/cli      USES editor/samples editor/pipeline editor/trial
                                      core/check core/reference core/compile core/percept core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
 focalstage_room(editor/document USES editor/samples io/journal io/project io/assets io/files core/scene)
-focalstage_room(editor/tools    USES core/compile core/stage core/optics core/scene core/mesh)
+focalstage_room(editor/tools    USES core/percept core/compile core/stage core/optics core/scene core/mesh)
 focalstage_room(editor/preview  USES editor/tools core/check core/compile core/reference core/percept core/retina core/schedule
                                      core/stage)
 focalstage_room(editor/rig      USES io/protocol io/project io/assets io/files)

@@ -26,7 +26,7 @@ struct ThingMap {
 
   int width_px = 0;
   int height_px = 0;
-  std::vector<SeenThing> things;        ///< objects first, both as the stage lists them
+  std::vector<SeenThing> things;    ///< objects first, both as the stage lists them
   std::vector<std::int32_t> thing;  ///< [row][column], rows from the top
   std::vector<float> vergence_d;  ///< 1 / axial distance from the lens centre: what the eyes converge on; NaN: nothing
 

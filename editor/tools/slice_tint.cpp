@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 
 #include "core/optics/assignment.h"
-#include "core/optics/vergence.h"
+#include "core/percept/conflict.h"
 
 namespace focalstage {
 namespace {
@@ -91,14 +91,39 @@ glm::dvec3 slice_colour(const std::vector<double>& powers_d, std::size_t slice) 
   return glm::mix(ramp[from], ramp[from + 1], place - static_cast<double>(from));
 }
 
-std::vector<Rgb> slice_tint(const Project& project, const Stage& stage, const StagedObject& object,
-                            const Drawable& drawable, Picker& picker) {
+namespace {
+
+/// What the colour of a spot depends on.
+struct TintSpot {
+  double axial_m = 0.0;   ///< where it stands
+  double behind_d = 0.0;  ///< 1 / distance of the surface behind it
+  double wanted_d = 0.0;  ///< the power it wants
+};
+
+Rgb slices_colour(const SliceRule& rule, const std::vector<glm::dvec3>& palette, const TintSpot& spot) {
+  glm::dvec3 colour(0.0);
+  for (std::size_t n = 0; n < palette.size(); ++n) colour += rule.weight(n, spot.wanted_d) * palette[n];
+  return Rgb(glm::clamp(colour, 0.0, 1.0) * 255.0 + 0.5);
+}
+
+/// The slices reach no further than the outermost; its picture lies 1/d_p - v away.
+Rgb conflicting_colour(const SliceRule& rule, const TintSpot& spot) {
+  const double given_d = std::clamp(spot.wanted_d, rule.lowest_d(), rule.highest_d());
+  const auto colour = conflict_colour(1.0 / spot.axial_m - (spot.behind_d - given_d));
+  constexpr double lightest = 110.0;  // so that shading still shows
+  return Rgb(glm::min(glm::dvec3(colour[0], colour[1], colour[2]) + lightest, 255.0));
+}
+
+}  // namespace
+
+std::vector<Rgb> object_tint(ObjectTint kind, const Project& project, const Stage& stage, const StagedObject& object,
+                             const Drawable& drawable, Picker& picker) {
   const std::vector<glm::dvec3>& points = drawable.mesh->positions_m;
   std::vector<Rgb> colours(points.size(), no_surface);
   const std::vector<double>& powers_d = project.slices.powers_d;
   const SightFrame sight = sight_frame(project, stage);
   const LookBox box = looks_at(sight, {drawable});
-  if (box.empty() || powers_d.empty()) return colours;
+  if (box.empty() || powers_d.empty() || kind == ObjectTint::none) return colours;
   const SurfaceGrid surfaces = surface_grid(sight, stage, box, picker);
   const SliceRule rule(powers_d, project.slices.assignment);
   std::vector<glm::dvec3> palette;
@@ -106,13 +131,10 @@ std::vector<Rgb> slice_tint(const Project& project, const Stage& stage, const St
   for (std::size_t i = 0; i < points.size(); ++i) {
     const glm::dvec3 point_m(drawable.world_from_mesh * glm::dvec4(points[i], 1.0));
     const std::optional<glm::dvec2> look = sight.look_at(point_m);
-    const double axial_m = sight.axial_m(point_m);
-    const double behind_d = look ? surfaces.behind_d(*look) : 0.0;
-    if (behind_d <= 0.0 || axial_m <= 0.0) continue;
-    const double power_d = wanted_power_d(project, object.depth, axial_m, behind_d);
-    glm::dvec3 colour(0.0);
-    for (std::size_t n = 0; n < palette.size(); ++n) colour += rule.weight(n, power_d) * palette[n];
-    colours[i] = Rgb(glm::clamp(colour, 0.0, 1.0) * 255.0 + 0.5);
+    TintSpot spot{sight.axial_m(point_m), look ? surfaces.behind_d(*look) : 0.0};
+    if (spot.behind_d <= 0.0 || spot.axial_m <= 0.0) continue;
+    spot.wanted_d = wanted_power_d(project, object.depth, spot.axial_m, spot.behind_d);
+    colours[i] = kind == ObjectTint::slices ? slices_colour(rule, palette, spot) : conflicting_colour(rule, spot);
   }
   return colours;
 }

@@ -113,8 +113,8 @@ void EyePane::draw_chips(Session& session, const PaneRect& rect) {
   ButtonStyle conflict;
   conflict.icon = "exchange";
   conflict.down = view.conflict;
-  conflict.tip = {"Where vergence and accommodation part: red where the focus lies further away, blue where nearer", "V",
-                  {}};
+  conflict.tip = {
+      "Where vergence and accommodation part: red where the focus lies further away, blue where nearer", "V", {}};
   if (chips.button("conflict", "", conflict)) (void)session.run("eye.conflict");
   ButtonStyle kind;
   kind.icon = "compare";
@@ -152,8 +152,9 @@ void EyePane::draw_panels(const PaneRect& rect) {
     if (i > 0) list.AddLine({left, rect.min.y}, {left, rect.min.y + rect.size.y}, theme::line, px(1));
     std::string words = looks ? look_words(panel.look) : "";
     if (projections) {
-      if (!words.empty()) words += ", ";
-      words += panel.projection == EyeProjection::conventional ? "conventional" : "multifocal";
+      const bool conventional = panel.projection == EyeProjection::conventional;
+      words = words.empty() ? conventional ? "Conventional" : "Multifocal"
+                            : words + (conventional ? ", conventional" : ", multifocal");
     }
     const ImVec2 size = ImGui::CalcTextSize(words.c_str());
     if (size.x + px(16) > width) continue;

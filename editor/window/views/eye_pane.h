@@ -9,8 +9,8 @@
 
 namespace focalstage {
 
-/// What an eye sees at a focus that a hand can set: either eye, both red-cyan or side by side; the sweep, a conventional
-/// projection, or both; where vergence and accommodation part. The head can be moved a little.
+/// What an eye sees at a focus that a hand can set: either eye, both red-cyan or side by side; the sweep, a
+/// conventional projection, or both; where vergence and accommodation part. The head can be moved a little.
 class EyePane : public Pane {
  public:
   std::string_view title() const override { return "Eye"; }

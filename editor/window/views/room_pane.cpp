@@ -19,8 +19,8 @@ constexpr double most_pixels = 3.2e6;
 
 RoomPane::Shown RoomPane::shown_of(const Session& session, glm::ivec2 size_px) {
   const ViewState& state = session.view();
-  return {session.stage(),    session.slices(),  session.revision(), room_view(session, size_px),
-          state.look_through, state.show_sheets, state.tint_by_slice};
+  return {session.stage(),    session.slices(),  session.revision(),  room_view(session, size_px),
+          state.look_through, state.show_sheets, state.tint_by_slice, state.conflict};
 }
 
 bool RoomPane::at_ease(const Session& session) const {

@@ -33,6 +33,7 @@ class RoomPane : public Pane {
     LookThrough look_through = LookThrough::nothing;
     bool sheets = true;
     bool tint = false;
+    bool conflict = false;
 
     bool operator==(const Shown&) const = default;
   };

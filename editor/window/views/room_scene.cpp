@@ -39,6 +39,11 @@ Bounds rough_bounds(const Stage& stage) {
   return all;
 }
 
+ObjectTint tint_wanted(const ViewState& view) {
+  if (view.tint_by_slice) return ObjectTint::slices;
+  return view.conflict ? ObjectTint::conflict : ObjectTint::none;
+}
+
 }  // namespace
 
 RoomScene::RoomScene()
@@ -58,12 +63,13 @@ RoomScene::RoomScene()
 
 RoomScene::~RoomScene() = default;
 
-void RoomScene::forget_stale_tints(const Project& project, const Stage& stage) {
-  if (tinted_slices_ == project.slices && tinted_surfaces_ == stage.surfaces &&
+void RoomScene::forget_stale_tints(const Project& project, const Stage& stage, ObjectTint kind) {
+  if (tinted_kind_ == kind && tinted_slices_ == project.slices && tinted_surfaces_ == stage.surfaces &&
       tinted_viewer_ == stage.world_from_viewer) {
     return;
   }
   tints_.clear();
+  tinted_kind_ = kind;
   tinted_slices_ = project.slices;
   tinted_surfaces_ = stage.surfaces;
   tinted_viewer_ = stage.world_from_viewer;
@@ -73,15 +79,16 @@ const std::vector<Rgb>& RoomScene::tint_of(const Project& project, const Stage& 
                                            std::size_t part, const Drawable& shown) {
   Tinted& tinted = tints_[{object.name, part}];
   if (tinted.colours.empty() || tinted.drawable != shown || tinted.depth != object.depth) {
-    tinted = {slice_tint(project, stage, object, shown, picker_), shown, object.depth};
+    tinted = {object_tint(tinted_kind_, project, stage, object, shown, picker_), shown, object.depth};
   }
   return tinted.colours;
 }
 
 void RoomScene::take_objects(const Session& session, const Project& project, const Stage& stage) {
-  const bool tint = session.view().tint_by_slice && !project.slices.powers_d.empty();
+  const ObjectTint kind = tint_wanted(session.view());
+  const bool tint = kind != ObjectTint::none && !project.slices.powers_d.empty();
   if (tint) {
-    forget_stale_tints(project, stage);
+    forget_stale_tints(project, stage, kind);
   } else {
     tints_.clear();
   }
@@ -117,7 +124,7 @@ void RoomScene::take(const Session& session) {
   const std::shared_ptr<const Stage> stage = session.stage() ? session.stage() : std::make_shared<const Stage>();
   const Project& project = session.project();
   const auto slices = session.slices();
-  const bool tint = session.view().tint_by_slice;
+  const ObjectTint tint = tint_wanted(session.view());
   const bool same_room =
       taken_stage_ && stage == taken_stage_ && session.revision() == taken_revision_ && !meshes_.take_news();
   if (same_room && slices == taken_slices_ && tint == taken_tint_) return;

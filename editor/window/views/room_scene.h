@@ -57,7 +57,7 @@ class RoomScene {
   void take_objects(const Session& session, const Project& project, const Stage& stage);
   const std::vector<Rgb>& tint_of(const Project& project, const Stage& stage, const StagedObject& object,
                                   std::size_t part, const Drawable& shown);
-  void forget_stale_tints(const Project& project, const Stage& stage);
+  void forget_stale_tints(const Project& project, const Stage& stage, ObjectTint kind);
   void set_camera(const RoomView& view);
 
   VtkTarget target_;
@@ -73,12 +73,13 @@ class RoomScene {
   std::vector<SliceSheet> sheets_;
   Floor floor_;
   std::map<std::pair<std::string, std::size_t>, Tinted> tints_;
+  ObjectTint tinted_kind_ = ObjectTint::none;
   Slices tinted_slices_;
   std::vector<StagedSurface> tinted_surfaces_;
   Rigid tinted_viewer_;
   std::shared_ptr<const Stage> taken_stage_;
   std::uint64_t taken_revision_ = 0;
-  bool taken_tint_ = false;
+  ObjectTint taken_tint_ = ObjectTint::none;
   std::shared_ptr<const CompiledSlices> taken_slices_;
 };
 

@@ -26,11 +26,11 @@ Project plane_before_screen(double at_m) {
   return project;
 }
 
-Rgb tint_of(const Project& project) {
+Rgb tint_of(const Project& project, ObjectTint kind = ObjectTint::slices) {
   const auto room = stage(project, Assets{}, 0.0);
   REQUIRE(room);
   Picker picker;
-  const auto tint = slice_tint(project, *room, room->objects[0], room->objects[0].drawables[0], picker);
+  const auto tint = object_tint(kind, project, *room, room->objects[0], room->objects[0].drawables[0], picker);
   REQUIRE(!tint.empty());
   return tint[0];
 }
@@ -53,6 +53,22 @@ TEST_CASE("what wants a slice's power has that slice's colour, what lies between
   Project pinned = plane_before_screen(0.4);
   pinned.objects[0].depth = {DepthMode::slice, 0.0, 0};
   CHECK(tint_of(pinned) == bytes(slice_colour(powers_d, 0)));
+}
+
+TEST_CASE("where the slices put an object where it stands it is green; where they cannot, or shall not, red or blue") {
+  const auto greenest = [](const Rgb& colour) { return colour.g > colour.r && colour.g > colour.b; };
+  CHECK(greenest(tint_of(plane_before_screen(0.4), ObjectTint::conflict)));
+  Project nearer = plane_before_screen(0.4);
+  nearer.objects[0].depth = {DepthMode::fixed, 1.2, 0};  // the eyes converge at 2.5 D
+  const Rgb far = tint_of(nearer, ObjectTint::conflict);
+  CHECK(far.r > far.g);
+  CHECK(far.r > far.b);
+  const Rgb beyond = tint_of(plane_before_screen(0.2), ObjectTint::conflict);  // 5 D, of which the slices give 3
+  CHECK(beyond.r > beyond.b);
+  nearer.objects[0].depth = {DepthMode::fixed, 3.4, 0};
+  nearer.slices.powers_d = {-1.5, 0.0};
+  const Rgb near = tint_of(nearer, ObjectTint::conflict);
+  CHECK(near.b > near.r);
 }
 
 TEST_CASE("where no surface is behind, no slice can be told") {
