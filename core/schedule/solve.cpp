@@ -8,6 +8,7 @@
 
 #include "core/schedule/place_powers.h"
 #include "core/schedule/slots.h"
+#include "core/schedule/smallest_sweep.h"
 #include "core/schedule/solve_attempt.h"
 #include "core/schedule/solve_nearest.h"
 
@@ -167,7 +168,7 @@ std::optional<SolveTrouble> plain_trouble(const SolveTerms& terms) {
     if (!(usable_share(project) > 0.01)) return SolveTrouble{Limit::dead_time, taken_s, half_s};
     return std::nullopt;
   }
-  const std::optional<Reach> reach = reach_of(project);
+  const std::optional<PowerSpan> reach = reach_of(project);
   if (!reach) return SolveTrouble{Limit::dead_time, taken_s, half_s};
   const double low_d = std::min(terms.lowest_d() + most_beyond_slices_d, terms.light() ? 0.0 : unlimited);
   const double high_d = std::max(terms.highest_d() - most_beyond_slices_d, terms.light() ? 0.0 : -unlimited);

@@ -3,103 +3,34 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "core/optics/image_plan.h"
 #include "core/schedule/place_powers.h"
+#include "core/schedule/shown_powers.h"
 #include "core/schedule/slots.h"
+#include "core/schedule/smallest_sweep.h"
 
 namespace focalstage {
 namespace {
 
 constexpr double tolerance_d = 1e-9;
 constexpr double tolerance_s = 1e-9;
-constexpr double step_d = 1.0 / need_cells_per_d;  ///< of candidates and of the sweep's ends: readable numbers
 constexpr double trim_step_d = 0.05;
-constexpr double smallest_amplitude_d = 0.05;
 
 double on_grid(double power_d) { return std::round(power_d * need_cells_per_d) / need_cells_per_d; }
-double grid_below(double power_d) { return std::floor(power_d * need_cells_per_d + 1e-6) / need_cells_per_d; }
-double grid_above(double power_d) { return std::ceil(power_d * need_cells_per_d - 1e-6) / need_cells_per_d; }
 
 bool lit(const Surface& surface) { return !surface.hidden && surface.illumination > 0.0; }
 
-/// When each of some powers is shown to each eye, as the scheduler times it.
-class Shown {
- public:
-  Shown(const Project& project, const std::vector<double>& powers_d)
-      : period_s_(1.0 / project.sweep.frequency_hz), at_(powers_d.size()) {
-    std::vector<ImageSpec> images;
-    for (const double power_d : powers_d) images.push_back({ImageEye::both, ImageKind::content, power_d, 0});
-    for (const Slot& slot : time_slots(project, images).slots) {
-      At& at = at_[static_cast<std::size_t>(slot.image)];
-      at.start_s[slot.eye] = slot.start_s;
-      at.smear_d = std::max(at.smear_d, slot.smear_d);
-      ++at.eyes;
-    }
-  }
-
-  /// In both eyes, without a shutter in the way.
-  bool whole(std::size_t i) const { return at_[i].eyes == 2; }
-  double smear_d(std::size_t i) const { return at_[i].smear_d; }
-
-  /// Between the starts of two exposures of one eye, in the eye where it is less.
-  double apart_s(std::size_t i, std::size_t j) const {
-    const auto apart = [&](Side eye) { return std::abs(at_[j].start_s[eye] - at_[i].start_s[eye]); };
-    return std::min(apart(Side::left), apart(Side::right));
-  }
-
-  /// From the left eye's exposure to the right eye's of the same power, and round to the left one's again.
-  double handover_s(std::size_t i) const { return at_[i].start_s.right - at_[i].start_s.left; }
-  double wrap_s(std::size_t i) const { return period_s_ - handover_s(i); }
-
- private:
-  struct At {
-    PerEye<double> start_s;
-    double smear_d = 0.0;
-    int eyes = 0;
-  };
-  double period_s_;
-  std::vector<At> at_;
-};
-
-struct Span {
-  double low_d;
-  double high_d;
-
-  Span with(double power_d) const { return {std::min(low_d, power_d), std::max(high_d, power_d)}; }
-};
-
-Span span_of(const std::vector<double>& powers_d, bool light) {
+PowerSpan span_of(const std::vector<double>& powers_d, bool light) {
   const auto [low, high] = std::minmax_element(powers_d.begin(), powers_d.end());
-  const Span span{*low, *high};
-  return light ? span.with(0.0) : span;
+  const PowerSpan span{*low, *high};
+  return light ? PowerSpan{std::min(span.low_d, 0.0), std::max(span.high_d, 0.0)} : span;
 }
 
-/// The smallest sine whose exposures can be centred on all of `span`; nothing where no sine or no lens can.
-///
-/// With m the middle, A the amplitude and c the usable share: m - c A <= low, m + c A >= high. Every sweep that serves
-/// contains the smallest one, and where it contains it it is faster at every power, as (v - min)(max - v) grows with
-/// both ends: so the smallest is also the one of least smear and of most time between two slices.
-std::optional<Span> smallest_sweep(const Project& project, const Span& span) {
-  const double share = usable_share(project);
-  if (!(share > 0.01)) return std::nullopt;
-  const double middle_d = (span.low_d + span.high_d) / 2.0;
-  const double amplitude_d = std::max((span.high_d - span.low_d) / 2.0 / share, smallest_amplitude_d);
-  // Rounded outwards both ends at once, so that neither eats what the other gives.
-  const Span sweep{grid_below(middle_d - amplitude_d), grid_above(middle_d + amplitude_d)};
-  const auto& [lens_min_d, lens_max_d] = project.glasses.lens_range_d;
-  const Span within{std::max(sweep.low_d, lens_min_d), std::min(sweep.high_d, lens_max_d)};
-  if (within.low_d > middle_d - amplitude_d + tolerance_d || within.high_d < middle_d + amplitude_d - tolerance_d) {
-    return std::nullopt;
-  }
-  return within;
-}
-
-bool set_sweep(Project& project, const Span& span) {
+bool set_sweep(Project& project, const PowerSpan& span) {
   if (!sweep_is_free(project.sweep)) return true;
-  const std::optional<Span> sweep = smallest_sweep(project, span);
+  const std::optional<PowerSpan> sweep = smallest_sweep(project, span);
   if (!sweep) return false;
   project.sweep.min_power_d = sweep->low_d;
   project.sweep.max_power_d = sweep->high_d;
@@ -151,7 +82,7 @@ class Attempt {
   void take_usable(const Project& project, std::vector<double> powers_d) {
     light_alone_ = terms_.light() && !std::binary_search(powers_d.begin(), powers_d.end(), 0.0);
     if (light_alone_) powers_d.insert(std::upper_bound(powers_d.begin(), powers_d.end(), 0.0), 0.0);
-    const Shown shown(project, powers_d);
+    const ShownPowers shown(project, powers_d);
     for (std::size_t i = 0; i < powers_d.size(); ++i) {
       if (!shown.whole(i) || shown.smear_d(i) > terms_.smear_d + tolerance_d) continue;
       if (terms_.light() && powers_d[i] == 0.0) zero_ = usable_.size();
@@ -257,7 +188,7 @@ class Attempt {
   std::vector<double> usable_;       ///< powers that can be shown, rising
   std::optional<std::size_t> zero_;  ///< the light's place among them
   bool light_alone_ = false;         ///< zero lies outside the needs: for light, not for a slice
-  std::optional<Shown> shown_;
+  std::optional<ShownPowers> shown_;
 };
 
 }  // namespace
@@ -276,14 +207,6 @@ double SolveTerms::highest_d() const {
   return highest_d;
 }
 
-bool sweep_is_free(const Sweep& sweep) { return !sweep.waveform.left && !sweep.waveform.right; }
-
-double usable_share(const Project& project) {
-  const double window_s = std::max(project.glasses.shutter_open_ms, project.glasses.shutter_close_ms) / 1000.0;
-  const double first_s = (window_s + exposure_s(project.projectors.front())) / 2.0;
-  return std::cos(std::min(0.5, project.sweep.frequency_hz * first_s) * 2.0 * std::numbers::pi);
-}
-
 std::optional<SolvedRig> attempt(const SolveTerms& terms, Budget& budget) {
   for (double trim_d = 0.0; trim_d <= most_beyond_slices_d + tolerance_d; trim_d += trim_step_d) {
     const auto rig = Attempt(terms, trim_d).run(budget);
@@ -300,24 +223,6 @@ Project with_rig(const Project& project, const SolvedRig& rig) {
   solved.projectors.front().frames_per_second = rig.frames_per_second;
   solved.projectors.front().exposure_ms = rig.exposure_ms;
   return solved;
-}
-
-std::optional<Reach> reach_of(const Project& project) {
-  const PerEye<Result<PowerCurve>> curves = power_curves(project.sweep);
-  if (!curves.left || !curves.right) return std::nullopt;
-  const double low_d = std::min(curves.left->min_d(), curves.right->min_d());
-  const double high_d = std::max(curves.left->max_d(), curves.right->max_d());
-  if (!(high_d - low_d <= 2.0 * farthest_need_d)) return std::nullopt;
-  std::vector<double> powers_d;
-  for (double power_d = grid_above(low_d); power_d <= high_d; power_d += step_d) powers_d.push_back(on_grid(power_d));
-  const Shown shown(project, powers_d);
-  std::optional<Reach> reach;
-  for (std::size_t i = 0; i < powers_d.size(); ++i) {
-    if (!shown.whole(i)) continue;
-    if (!reach) reach = Reach{powers_d[i], powers_d[i]};
-    reach->high_d = powers_d[i];
-  }
-  return reach;
 }
 
 }  // namespace focalstage

@@ -33,18 +33,4 @@ std::optional<SolvedRig> attempt(const SolveTerms& terms, Budget& budget);
 /// `project` with the rig's sweep, slices and projector times.
 Project with_rig(const Project& project, const SolvedRig& rig);
 
-/// Whether the sweep is a sine for both eyes, which can be made wider or smaller.
-bool sweep_is_free(const Sweep& sweep);
-
-/// The part of a sine's amplitude that exposures can use: the cosine of the phase from an extremum to the centre of the
-/// first exposure that clears the dead window (decision 9). Zero or less: none.
-double usable_share(const Project& project);
-
-/// The powers from the lowest to the highest that exposures of the project's sweep can be centred on, in both eyes.
-struct Reach {
-  double low_d = 0.0;
-  double high_d = 0.0;
-};
-std::optional<Reach> reach_of(const Project& project);
-
 }  // namespace focalstage
