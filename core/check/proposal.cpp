@@ -60,10 +60,13 @@ std::string powers_words(const std::vector<double>& powers_d) {
 
 std::vector<Edit> rig_edits(const Project& project, const SolvedRig& rig) {
   Edits edits;
+  // An index must exist at every step: a shorter list comes after what points into it.
+  const bool fewer = rig.powers_d.size() < project.slices.powers_d.size();
+  if (fewer) add_pins(project, rig, edits);
   if (project.slices.powers_d != rig.powers_d) {
     edits.push_back(set_edit("slices", "", "powers_d", Value(Value::Array(rig.powers_d.begin(), rig.powers_d.end()))));
   }
-  add_pins(project, rig, edits);
+  if (!fewer) add_pins(project, rig, edits);
   const Sweep& sweep = project.sweep;
   if (sweep.min_power_d != rig.min_power_d) edits.push_back(set_edit("sweep", "", "min_power_d", rig.min_power_d));
   if (sweep.max_power_d != rig.max_power_d) edits.push_back(set_edit("sweep", "", "max_power_d", rig.max_power_d));

@@ -94,7 +94,7 @@ Finding described(const Project& project, const SolveTrouble& trouble) {
       return error("slices.spacing", "/slices/powers_d",
                    "the slices that can be shown lie " + words(amount) + " D apart; " + words(allowed) + " D is wanted",
                    amount, allowed, "D");
-    case Limit::too_few:
+    case Limit::count:
       return error("slices.spacing", "/slices/powers_d",
                    words(amount) + " slices cannot be placed so that all is within reach; " + words(allowed) + " can",
                    amount, allowed, "slices");
@@ -121,7 +121,7 @@ std::vector<Change> answers_to(Limit limit) {
       return {Change::exposure, Change::spacing, Change::slices, Change::range};
     case Limit::spacing:
       return {Change::spacing, Change::slices, Change::exposure};
-    case Limit::too_few:
+    case Limit::count:
       return {Change::slices, Change::spacing};
     default:
       return {};

@@ -106,7 +106,7 @@ std::vector<Suspect> suspects() {
           {Limit::smear, [](SolveTerms& terms) { terms.smear_d = unlimited; }},
           {Limit::overlap, [](SolveTerms& terms) { terms.pitch_s = 0.0; }},
           {Limit::spacing, [](SolveTerms& terms) { terms.spacing_d = 2.0 * farthest_need_d; }},
-          {Limit::too_few, [](SolveTerms& terms) { terms.count.reset(); }}};
+          {Limit::count, [](SolveTerms& terms) { terms.count.reset(); }}};
 }
 
 /// How much of a limit the rig takes that was found without it.
@@ -123,7 +123,7 @@ SolveTrouble measured(Limit limit, const SolveTerms& terms, const SolvedRig& rig
       return {limit, rig.tightest_s, slot_pitch_s(terms.project.projectors.front())};
     case Limit::spacing:
       return {limit, rig.widest_gap_d, terms.spacing_d};
-    case Limit::too_few:
+    case Limit::count:
       return {limit, static_cast<double>(terms.count.value_or(0)), static_cast<double>(rig.powers_d.size())};
     default:
       return {limit};
@@ -150,7 +150,7 @@ std::vector<SolveTrouble> blame(const SolveTerms& terms, Budget& budget) {
       const SolveTrouble trouble = measured(limit, terms, *rig);
       const double over = limit == Limit::overlap ? trouble.allowed - trouble.amount : trouble.amount - trouble.allowed;
       const bool passed =
-          limit == Limit::lens_range || limit == Limit::too_few ? trouble.amount != trouble.allowed : over > 0.0;
+          limit == Limit::lens_range || limit == Limit::count ? trouble.amount != trouble.allowed : over > 0.0;
       if (passed) troubles.push_back(trouble);
     }
     return troubles;

@@ -61,7 +61,7 @@ struct SolveTrouble {
     smear,           ///< the power would change too much in one exposure. D; 0.3
     overlap,         ///< exposures would start too soon after one another. Seconds; the projector's
     spacing,         ///< slices would lie too far apart. D; what was asked for
-    too_few,         ///< of so many slices there is no placement. The number; the fewest that do
+    count,           ///< so many slices cannot be placed. The number; the fewest that can
     unknown,         ///< no limit alone or together was found to blame
     gave_up,         ///< the search's bound was reached before anything was found
     stopped,         ///< somebody asked to stop

@@ -52,14 +52,14 @@ std::optional<NearestSetting> shorter_exposure(const SolveTerms& terms, std::spa
     SolveTerms loose = terms;
     Projector& own = loose.project.projectors.front();
     const double wanted_s = std::max(least_s, whole_us(least_s + share * (now_s - least_s)));
-    own.exposure_ms = std::min(wanted_s, exposure_s(projector)) * 1000.0;
+    if (wanted_s < exposure_s(projector)) own.exposure_ms = std::round(wanted_s * 1e6) / 1000.0;
     own.frames_per_second = std::max(projector.frames_per_second, std::floor(1.0 / wanted_s));
     return attempt(loose, budget);
   };
   const auto found = largest(try_at);
   if (!found) return std::nullopt;
   const SolvedRig& rig = found->second;
-  const double then_s = std::max(*rig.exposure_ms / 1000.0, 1.0 / rig.frames_per_second);
+  const double then_s = slot_pitch_s(with_rig(terms.project, rig).projectors.front());
   return NearestSetting{Change::exposure, now_s, then_s, 0.0, 0.0, rig};
 }
 

@@ -8,20 +8,14 @@
 #include "core/check/rules.h"
 #include "core/compile/compile.h"
 #include "core/compile/coverage.h"
-#include "core/compile/need_meter.h"
 #include "core/optics/image_plan.h"
 #include "core/schedule/schedule.h"
+#include "editor/pipeline/measure_needs.h"
 
 namespace focalstage {
 namespace {
 
 Fault cancelled(const Project& project) { return {"solve.cancelled", project.name, "stopped before the end", ""}; }
-
-/// Whether two moments look alike: everything but the time.
-bool same_room(const Stage& a, const Stage& b) {
-  return a.world_from_viewer == b.world_from_viewer && a.interpupillary_m == b.interpupillary_m &&
-         a.surfaces == b.surfaces && a.objects == b.objects && a.lights == b.lights;
-}
 
 /// Compiles every frame and keeps what was measured, not the images.
 Result<Measured> measure_frames(const Project& project, const Assets& assets, const FrameProgress& progress,
@@ -88,27 +82,6 @@ void withdraw(SolveReport& report) {
 }
 
 }  // namespace
-
-Result<Needs> measure_needs(const Project& project, const Assets& assets, FrameRange frames,
-                            const FrameProgress& progress, std::stop_token stop) {
-  const CompileSettings settings = compile_settings(project);
-  NeedMeter meter(settings.projector, settings.lens_to_pupil_m, settings.slices.breathing);
-  Needs needs;
-  std::optional<Stage> before;
-  std::vector<ObjectNeeds> now;
-  for (int k = frames.begin; k < frames.end; ++k) {
-    if (stop.stop_requested()) return cancelled(project);
-    auto staged = stage(project, assets, k / project.frames.rate_hz);
-    if (!staged) return staged.fault();
-    if (!before || !same_room(*before, *staged)) {
-      now = meter.measure(*staged);
-      before = std::move(*staged);
-    }
-    needs.add(now);
-    progress(k + 1 - frames.begin, frames.end - frames.begin);
-  }
-  return needs;
-}
 
 Result<SolveReport> solve_project(const Project& project, const Assets& assets, const SolveWishes& wishes,
                                   const SolveProgress& progress, std::stop_token stop) {

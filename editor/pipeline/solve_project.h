@@ -15,11 +15,6 @@
 
 namespace focalstage {
 
-/// What the frames [begin, end) of a project need, every one of them stood up and looked at. Faults: "solve.cancelled"
-/// and those of staging.
-Result<Needs> measure_needs(const Project& project, const Assets& assets, FrameRange frames,
-                            const FrameProgress& progress, std::stop_token stop);
-
 /// What solving came to.
 struct SolveReport {
   SolveResult result;
