@@ -34,15 +34,17 @@ void add_pins(const Project& project, const SolvedRig& rig, Edits& edits) {
 
 std::string ms(double time_s) { return words(time_s * 1000.0) + " ms"; }
 
+std::string count_words(std::size_t slices) { return std::to_string(slices) + (slices == 1 ? " slice" : " slices"); }
+
 std::string change_words(const NearestSetting& setting) {
-  const std::string slices = std::to_string(setting.rig.powers_d.size()) + " slices";
+  const std::string slices = count_words(setting.rig.powers_d.size());
   switch (setting.change) {
     case Change::exposure:
       return "an exposure every " + ms(setting.to) + " instead of " + ms(setting.from) + ", with " + slices;
     case Change::spacing:
       return "slices up to " + words(setting.to) + " D apart instead of " + words(setting.from) + " D: " + slices;
     case Change::slices:
-      return words(setting.to) + " slices instead of " + words(setting.from);
+      return slices + " instead of " + words(setting.from);
     case Change::range:
       return "only what needs " + words(setting.low_d) + " to " + words(setting.high_d) + " D, " + percent(setting.to) +
              " of the picture: " + slices;
@@ -109,7 +111,7 @@ std::vector<std::string> proposal_words(const Project& project, const SolveResul
   const SolvedRig& rig = *result.rig;
   std::vector<std::string> lines;
   const std::size_t before = project.slices.powers_d.size();
-  lines.push_back(std::to_string(rig.powers_d.size()) + " slices instead of " + std::to_string(before) + ": " +
+  lines.push_back(count_words(rig.powers_d.size()) + " instead of " + std::to_string(before) + ": " +
                   powers_words(rig.powers_d) + " D");
   if (!project.sweep.waveform.left && !project.sweep.waveform.right) {
     lines.push_back("sweep " + words(rig.min_power_d) + " to " + words(rig.max_power_d) + " D instead of " +

@@ -84,10 +84,9 @@ SolveTerms terms_of(const Project& project, const Needs& needs, const SolveWishe
   } else if (wishes.max_error_d) {
     terms.spacing_d = most_spacing_d;
   } else if (wishes.slices) {
-    // Never narrower than even steps: so that these are among the choices wherever the rules allow them.
-    const double gaps = std::max(1, *wishes.slices - 1);
-    const double even_d = (terms.highest_d() - terms.lowest_d()) / gaps;
-    terms.spacing_d = std::clamp(even_d + 1e-9, good_spacing_d, most_spacing_d);
+    // So that even steps are among the choices wherever the rules allow them.
+    const double even_d = (terms.highest_d() - terms.lowest_d()) / std::max(1, *wishes.slices - 1);
+    terms.spacing_d = even_d <= good_spacing_d ? good_spacing_d : most_spacing_d;
   }
   return terms;
 }

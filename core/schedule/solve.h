@@ -21,13 +21,13 @@ namespace focalstage {
 /// 1).
 inline constexpr double good_spacing_d = 0.6;
 inline constexpr double most_spacing_d = 1.0;
-/// What is needed may lie so far beyond the outermost slice.
-inline constexpr double most_beyond_slices_d = 0.3;
+/// What is needed may lie so far beyond the outermost slice: the rule's 0.3 D less what measuring on a grid may miss.
+inline constexpr double most_beyond_slices_d = 0.28;
 inline constexpr int most_solved_slices = 64;
 
 struct SolveWishes {
   std::optional<int> slices;          ///< so many, placed for the least mean error; none: as few as keep the rest
-  std::optional<double> spacing_d;    ///< instead of 0.6 D; with `slices` the least that so many allow
+  std::optional<double> spacing_d;    ///< instead of 0.6 D; with `slices`: 1 D where even steps would be wider than 0.6
   std::optional<double> max_error_d;  ///< every need at most so far from its nearest slice: then up to 1 D apart
 };
 

@@ -208,8 +208,8 @@ double SolveTerms::highest_d() const {
 }
 
 std::optional<SolvedRig> attempt(const SolveTerms& terms, Budget& budget) {
-  for (double trim_d = 0.0; trim_d <= most_beyond_slices_d + tolerance_d; trim_d += trim_step_d) {
-    const auto rig = Attempt(terms, trim_d).run(budget);
+  for (double trim_d = 0.0; trim_d < most_beyond_slices_d + trim_step_d; trim_d += trim_step_d) {
+    const auto rig = Attempt(terms, std::min(trim_d, most_beyond_slices_d)).run(budget);
     if (rig || budget.spent()) return rig;
   }
   return std::nullopt;

@@ -83,12 +83,11 @@ std::optional<NearestSetting> other_count(const SolveTerms& terms, Budget& budge
   const auto try_count = [&](std::optional<int> count) {
     SolveTerms loose = terms;
     loose.count = count;
-    const double gaps = std::max(1, count.value_or(most_solved_slices) - 1);
-    const double even_d = (terms.highest_d() - terms.lowest_d()) / gaps;
-    loose.spacing_d = std::max(terms.spacing_d, std::min(even_d + 1e-9, most_spacing_d));
+    const double even_d = (terms.highest_d() - terms.lowest_d()) / std::max(1, count.value_or(most_solved_slices) - 1);
+    if (even_d > good_spacing_d) loose.spacing_d = std::max(terms.spacing_d, most_spacing_d);
     return attempt(loose, budget);
   };
-  const auto fewest = try_count(std::nullopt);
+  auto fewest = try_count(std::nullopt);
   if (!fewest) return std::nullopt;
   const auto setting = [&](int count, const SolvedRig& rig) {
     return NearestSetting{Change::slices, static_cast<double>(*terms.count), static_cast<double>(count), 0.0, 0.0, rig};

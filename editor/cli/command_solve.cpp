@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -130,7 +131,13 @@ Status save(const Options& options, const SolveReport& report) {
   return {};
 }
 
+bool is_nan(const std::optional<double>& wish) { return wish && std::isnan(*wish); }
+
 ExitStatus run(const Options& options) {
+  if (is_nan(options.wishes.spacing_d) || is_nan(options.wishes.max_error_d)) {
+    report(Fault{"solve.number", "--spacing, --max-error", "nan is no number", ""});
+    return ExitStatus::usage;
+  }
   Interrupt interrupt;
   const auto source = open_project(options.project);
   if (!source) return report(source.fault());

@@ -15,6 +15,8 @@
 namespace focalstage {
 namespace {
 
+constexpr int most_rounds = 3;  ///< of solving for what compiling saw
+
 Fault cancelled(const Project& project) { return {"solve.cancelled", project.name, "stopped before the end", ""}; }
 
 /// Compiles every frame and keeps what was measured, not the images.
@@ -79,6 +81,7 @@ void propose(const Project& project, SolveReport& report) {
 void withdraw(SolveReport& report) {
   report.result.rig.reset();
   report.edits.clear();
+  std::erase_if(report.findings, [](const Finding& finding) { return finding.severity != Severity::error; });
 }
 
 }  // namespace
@@ -100,7 +103,7 @@ Result<SolveReport> solve_project(const Project& project, const Assets& assets, 
   SolveReport report;
   report.needs = *std::move(needs);
   Needs solved_for = report.needs;
-  for (const bool last : {false, true}) {
+  for (int round = 1;; ++round) {
     progress(0.4, "solving");
     report.result = solve(project, solved_for, wishes, projector_models(), {SolveBounds{}.steps, stop});
     if (stop.stop_requested()) return cancelled(project);
@@ -115,7 +118,7 @@ Result<SolveReport> solve_project(const Project& project, const Assets& assets, 
     const auto measured = measure_frames(*solved, assets, part(0.5, 0.5, "proved"), stop);
     if (!measured) return measured.fault();
     report.findings = check(*solved, make_schedule(*solved, image_plan(*solved)), *measured);
-    if (last || !widen(*solved, *measured, solved_for)) break;
+    if (round == most_rounds || !widen(*solved, *measured, solved_for)) break;
   }
   if (has_error(report.findings)) withdraw(report);
   return report;

@@ -31,7 +31,8 @@ struct SolveReport {
 using SolveProgress = std::function<void(double share, const std::string& detail)>;
 
 /// Solves a project over all its frames: measures what is needed, solves, and compiles the proposal to see what it is
-/// worth. A picture that wants more than measuring saw (a look bent round a surface's edge) is solved for once more. A
+/// worth. A picture that wants more than measuring saw (a look bent round a surface's edge) is solved for
+/// again, twice at most. A
 /// proposal is made only where the rules, and what compiling measured, have no error for it. Faults: "solve.cancelled",
 /// "project.no-projector" and those of staging and compiling.
 Result<SolveReport> solve_project(const Project& project, const Assets& assets, const SolveWishes& wishes,

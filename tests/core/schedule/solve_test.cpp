@@ -379,7 +379,7 @@ TEST_CASE("a measured sweep is kept, slices are placed within it") {
   CHECK_FALSE(beyond.rig);
   const SolveTrouble* trouble = find(beyond, Limit::fixed_sweep);
   REQUIRE(trouble);
-  CHECK(trouble->amount == doctest::Approx(-1.6));
+  CHECK(trouble->amount == doctest::Approx(-1.62));
   CHECK(trouble->allowed == doctest::Approx(-0.87));
   const NearestSetting* narrower = find(beyond, Change::range);
   REQUIRE(narrower);
