@@ -119,8 +119,9 @@ std::vector<std::string> proposal_words(const Project& project, const SolveResul
   } else {
     lines.push_back("the measured sweep stays as it is");
   }
-  lines.push_back("needed " + words(result.lowest_need_d) + " to " + words(result.highest_need_d) + " D; up to " +
-                  words(rig.beyond_d) + " D beyond the slices");
+  lines.push_back("needed " + words(result.lowest_need_d) + " to " + words(result.highest_need_d) + " D; " +
+                  (rig.beyond_d > 0.0 ? "up to " + words(rig.beyond_d) + " D" : std::string("nothing")) +
+                  " beyond the slices");
   lines.push_back("mean error " + words(result.after.mean_d) + " D instead of " + words(result.before.mean_d) +
                   " D; at even steps " + words(result.uniform.mean_d) + " D");
   lines.push_back("slices up to " + words(rig.widest_gap_d) + " D apart; smear up to " + words(rig.worst_smear_d) +

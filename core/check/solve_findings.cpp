@@ -96,7 +96,8 @@ Finding described(const Project& project, const SolveTrouble& trouble) {
                    amount, allowed, "D");
     case Limit::count:
       return error("slices.spacing", "/slices/powers_d",
-                   words(amount) + " slices cannot be placed so that all is within reach; " + words(allowed) + " can",
+                   words(amount) + " slices cannot be placed within reach of everything; with no number asked for, " +
+                       words(allowed) + " are",
                    amount, allowed, "slices");
     case Limit::unknown:
       return error("solve.gave-up", "/slices", "no slices were found, nor one limit that is to blame");
