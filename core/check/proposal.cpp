@@ -32,6 +32,16 @@ void add_pins(const Project& project, const SolvedRig& rig, Edits& edits) {
   }
 }
 
+/// The lowest power stays below the highest at every step.
+void add_sweep(const Sweep& sweep, const SolvedRig& rig, Edits& edits) {
+  const bool lowest = sweep.min_power_d != rig.min_power_d;
+  const bool highest = sweep.max_power_d != rig.max_power_d;
+  const bool upwards = rig.min_power_d >= sweep.max_power_d;
+  if (highest && upwards) edits.push_back(set_edit("sweep", "", "max_power_d", rig.max_power_d));
+  if (lowest) edits.push_back(set_edit("sweep", "", "min_power_d", rig.min_power_d));
+  if (highest && !upwards) edits.push_back(set_edit("sweep", "", "max_power_d", rig.max_power_d));
+}
+
 std::string ms(double time_s) { return words(time_s * 1000.0) + " ms"; }
 
 std::string count_words(std::size_t slices) { return std::to_string(slices) + (slices == 1 ? " slice" : " slices"); }
@@ -69,9 +79,7 @@ std::vector<Edit> rig_edits(const Project& project, const SolvedRig& rig) {
     edits.push_back(set_edit("slices", "", "powers_d", Value(Value::Array(rig.powers_d.begin(), rig.powers_d.end()))));
   }
   if (!fewer) add_pins(project, rig, edits);
-  const Sweep& sweep = project.sweep;
-  if (sweep.min_power_d != rig.min_power_d) edits.push_back(set_edit("sweep", "", "min_power_d", rig.min_power_d));
-  if (sweep.max_power_d != rig.max_power_d) edits.push_back(set_edit("sweep", "", "max_power_d", rig.max_power_d));
+  add_sweep(project.sweep, rig, edits);
   if (project.projectors.empty()) return edits;
   const Projector& projector = project.projectors.front();
   if (projector.frames_per_second != rig.frames_per_second) {

@@ -96,8 +96,8 @@ Finding described(const Project& project, const SolveTrouble& trouble) {
                    amount, allowed, "D");
     case Limit::count:
       return error("slices.spacing", "/slices/powers_d",
-                   words(amount) + " slices cannot be placed within reach of everything; with no number asked for, " +
-                       words(allowed) + " are",
+                   allowed > amount ? words(amount) + " slices do not reach everything; it takes " + words(allowed)
+                                    : words(amount) + " slices cannot be shown; " + words(allowed) + " are enough",
                    amount, allowed, "slices");
     case Limit::unknown:
       return error("solve.gave-up", "/slices", "no slices were found, nor one limit that is to blame");

@@ -5,7 +5,7 @@
 
 namespace focalstage {
 
-/// How long a search may go on, in steps of a few nanoseconds each: the same on every machine, and no clock needed.
+/// How long a search may go on, in steps of about ten nanoseconds each: the same on every machine, and no clock needed.
 class Budget {
  public:
   explicit Budget(std::uint64_t steps, std::stop_token stop = {}) : left_(steps), stop_(std::move(stop)) {}

@@ -36,9 +36,9 @@ class NeedSums {
     return std::max(0.0, (moment_[to] - moment_[from]) - (weight_[to] - weight_[from]) * power_d);
   }
 
-  /// The cells above `low_d` up to `high_d`, each to the nearer of the two.
-  double between(double low_d, double high_d) const {
-    const std::size_t from = after(low_d), to = after(high_d), middle = after((low_d + high_d) / 2.0);
+  /// The cells [from, to) between two powers, each to the nearer of the two.
+  double between(std::size_t from, std::size_t to, double low_d, double high_d) const {
+    const std::size_t middle = std::clamp(after((low_d + high_d) / 2.0), from, to);
     return from_above(from, middle, low_d) + from_below(middle, to, high_d);
   }
 

@@ -29,7 +29,9 @@ struct Way {
 class Placer {
  public:
   Placer(const PowerHistogram& needs, const PlacementRules& rules, Budget& budget)
-      : sums_(needs), rules_(rules), budget_(budget) {}
+      : sums_(needs), rules_(rules), budget_(budget) {
+    for (const double power_d : rules.candidates_d) after_.push_back(sums_.after(power_d));
+  }
 
   std::optional<std::vector<double>> fewest() {
     std::vector<Way> ways = starts();
@@ -74,7 +76,7 @@ class Placer {
   std::vector<Way> starts() const {
     std::vector<Way> ways(rules_.candidates_d.size());
     for (std::size_t j = 0; j < ways.size(); ++j) {
-      if (rules_.first(j)) ways[j] = {1, sums_.from_below(0, sums_.after(power_d(j)), power_d(j)), j, 0.0};
+      if (rules_.first(j)) ways[j] = {1, sums_.from_below(0, after_[j], power_d(j)), j, 0.0};
     }
     return ways;
   }
@@ -88,13 +90,13 @@ class Placer {
         static_cast<std::size_t>(std::lower_bound(begin, begin + static_cast<std::ptrdiff_t>(j), lowest_d) - begin);
     for (std::size_t i = first; i < j; ++i) {
       const Way before = way_to(i);
-      if (before.powers == 0) continue;
+      if (before.powers == 0 || before.powers >= most_powers) continue;
       const double gap_d = power_d(j) - power_d(i);
-      const Way way{before.powers + 1, before.loss + sums_.between(power_d(i), power_d(j)), i,
+      const Way way{before.powers + 1, before.loss + sums_.between(after_[i], after_[j], power_d(i), power_d(j)), i,
                     before.unevenness + gap_d * gap_d};
       if (way.better_than(best) && rules_.next(i, j)) best = way;
     }
-    return budget_.spend(1 + (j - first) * 20);
+    return budget_.spend(1 + j - first);
   }
 
   std::optional<std::size_t> end_of(const std::vector<Way>& ways, Way& best) const {
@@ -102,7 +104,7 @@ class Placer {
     for (std::size_t j = 0; j < ways.size(); ++j) {
       if (ways[j].powers == 0 || !rules_.last(j)) continue;
       Way way = ways[j];
-      way.loss += sums_.from_above(sums_.after(power_d(j)), sums_.count(), power_d(j));
+      way.loss += sums_.from_above(after_[j], sums_.count(), power_d(j));
       if (!way.better_than(best)) continue;
       best = way;
       end = j;
@@ -111,6 +113,7 @@ class Placer {
   }
 
   NeedSums sums_;
+  std::vector<std::size_t> after_;  ///< of each candidate: the first cell above it
   const PlacementRules& rules_;
   Budget& budget_;
 };

@@ -26,6 +26,9 @@ std::vector<double> k_medians(const PowerHistogram& needs, int count);
 /// `count` powers at even steps from the lowest need to the highest; the middle for one.
 std::vector<double> uniform_powers(const PowerHistogram& needs, int count);
 
+/// Nobody has a projector for more slices.
+inline constexpr int most_powers = 64;
+
 /// Which powers may be chosen, and which may follow each other. Indices are into `candidates_d`.
 struct PlacementRules {
   std::vector<double> candidates_d;  ///< strictly rising
@@ -35,8 +38,8 @@ struct PlacementRules {
   std::function<bool(std::size_t, std::size_t)> next;
 };
 
-/// The powers of least mean error that keep the rules: `count` of them, or as few as there can be. Nothing where there
-/// are none, or where the budget ran out.
+/// The powers of least mean error that keep the rules: `count` of them, or as few as there can be, 64 at most. Nothing
+/// where there are none, or where the budget ran out.
 std::optional<std::vector<double>> place_powers(const PowerHistogram& needs, const PlacementRules& rules,
                                                 std::optional<int> count, Budget& budget);
 

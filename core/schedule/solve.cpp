@@ -17,6 +17,7 @@ namespace {
 
 using Limit = SolveTrouble::Limit;
 constexpr double unlimited = 1e9;
+static_assert(most_solved_slices == most_powers);
 
 bool sensible(const SolveWishes& wishes) {
   const auto positive = [](const std::optional<double>& wish) {
@@ -157,6 +158,15 @@ std::vector<SolveTrouble> blame(const SolveTerms& terms, Budget& budget) {
   return troubles;
 }
 
+/// A range so wide that even slices as far apart as can be do not cover it.
+std::optional<SolveTrouble> wide_trouble(const SolveTerms& terms) {
+  const double covered_d = terms.highest_d() - terms.lowest_d() - 2.0 * most_beyond_slices_d;
+  const double least = std::ceil(covered_d / terms.spacing_d - 1e-9) + 1.0;
+  const int most = terms.count.value_or(most_solved_slices);
+  if (!(least > most)) return std::nullopt;
+  return SolveTrouble{Limit::count, static_cast<double>(most), least};
+}
+
 /// Limits that no search is needed to see.
 std::optional<SolveTrouble> plain_trouble(const SolveTerms& terms) {
   const Project& project = terms.project;
@@ -165,7 +175,7 @@ std::optional<SolveTrouble> plain_trouble(const SolveTerms& terms) {
   const double taken_s = window_s + exposure_s(project.projectors.front());
   if (sweep_is_free(project.sweep)) {
     if (!(usable_share(project) > 0.01)) return SolveTrouble{Limit::dead_time, taken_s, half_s};
-    return std::nullopt;
+    return wide_trouble(terms);
   }
   const std::optional<PowerSpan> reach = reach_of(project);
   if (!reach) return SolveTrouble{Limit::dead_time, taken_s, half_s};

@@ -23,7 +23,7 @@ inline constexpr double good_spacing_d = 0.6;
 inline constexpr double most_spacing_d = 1.0;
 /// What is needed may lie so far beyond the outermost slice: the rule's 0.3 D less what measuring on a grid may miss.
 inline constexpr double most_beyond_slices_d = 0.28;
-inline constexpr int most_solved_slices = 64;
+inline constexpr int most_solved_slices = 64;  ///< `most_powers` of core/schedule/place_powers.h
 
 struct SolveWishes {
   std::optional<int> slices;          ///< so many, placed for the least mean error; none: as few as keep the rest
@@ -61,7 +61,7 @@ struct SolveTrouble {
     smear,           ///< the power would change too much in one exposure. D; 0.3
     overlap,         ///< exposures would start too soon after one another. Seconds; the projector's
     spacing,         ///< slices would lie too far apart. D; what was asked for
-    count,           ///< so many slices cannot be placed. The number; the fewest that can
+    count,           ///< so many slices cannot be placed. The number (none asked for: 64); the fewest that can
     unknown,         ///< no limit alone or together was found to blame
     gave_up,         ///< the search's bound was reached before anything was found
     stopped,         ///< somebody asked to stop
@@ -117,7 +117,7 @@ struct SolveResult {
 
 /// How long the search may be: some seconds, wherever it runs.
 struct SolveBounds {
-  std::uint64_t steps = 2'000'000'000;
+  std::uint64_t steps = 300'000'000;
   std::stop_token stop;
 };
 

@@ -17,6 +17,7 @@ namespace {
 constexpr double tolerance_d = 1e-9;
 constexpr double tolerance_s = 1e-9;
 constexpr double trim_step_d = 0.05;
+constexpr std::uint64_t steps_per_candidate = 100;  ///< what timing one takes
 
 double on_grid(double power_d) { return std::round(power_d * need_cells_per_d) / need_cells_per_d; }
 
@@ -68,6 +69,7 @@ class Attempt {
     Project project = terms_.project;
     std::vector<double> powers_d = candidates(terms_, low_d, high_d);
     if (!set_sweep(project, span_of(powers_d, terms_.light()))) return std::nullopt;
+    if (!budget.spend(steps_per_candidate * powers_d.size())) return std::nullopt;
     take_usable(project, std::move(powers_d));
     if (terms_.light() && !zero_) return std::nullopt;
     const auto placed = place_powers(terms_.needs, rules(), terms_.count, budget);

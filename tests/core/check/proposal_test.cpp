@@ -62,6 +62,20 @@ TEST_CASE("objects pinned to a slice follow its power") {
   CHECK(fewer->objects[1].depth.index == 0);
 }
 
+TEST_CASE("a sweep moves as a whole: its edits can be applied one after the other, up and down") {
+  Project project = quiet_project();
+  for (const auto& [low_d, high_d] : {std::pair{1.6, 2.4}, {-4.0, -3.0}, {1.5, 2.0}, {-1.0, 0.5}}) {
+    SolvedRig rig = rig_of({low_d + 0.3, high_d - 0.3});
+    rig.min_power_d = low_d;
+    rig.max_power_d = high_d;
+    const Result<Project> after = apply_all(project, rig_edits(project, rig));
+    REQUIRE(after);
+    CHECK(after->sweep.min_power_d == low_d);
+    CHECK(after->sweep.max_power_d == high_d);
+    project = *after;
+  }
+}
+
 TEST_CASE("each limit that fails is a finding with its amount; what is possible instead is its remedy") {
   Project project = quiet_project();
   project.projectors[0].frames_per_second = 1000;
