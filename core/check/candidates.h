@@ -63,6 +63,15 @@ Candidates smear_candidates(const Project& project, const Finding& finding, std:
 Candidates bit_depth_candidates(const Project& project, const Finding& finding,
                                 std::span<const ProjectorModelData> models);
 
+// The solver ---------------------------------------------------------------------------------------------------------
+
+/// Whether the solver can have a remedy for findings of this code: what slices and sweep do not reach.
+bool solver_answers(const std::string& code);
+
+/// The solver's proposal for all that the frames need; none where that was not measured or there is none.
+Candidates solver_candidates(const Project& project, const Measured& measured,
+                             std::span<const ProjectorModelData> models);
+
 // The objects --------------------------------------------------------------------------------------------------------
 
 Candidates depth_candidates(const Project& project, const Finding& finding, const Measured& measured);

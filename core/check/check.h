@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/compile/coverage.h"
 #include "core/compile/frame.h"
+#include "core/optics/needs.h"
 #include "core/scene/finding.h"
 #include "core/scene/project.h"
 #include "core/schedule/projector_models.h"
@@ -16,6 +18,7 @@ namespace focalstage {
 struct Measured {
   std::vector<FrameMeasure> frames;
   std::vector<std::vector<ObjectCoverage>> coverage;  ///< per frame
+  std::optional<Needs> needs;                         ///< of all frames: lets remedies come from the solver
 };
 
 /// Everything wrong with a project, in a fixed order (errors first, then by code and place), each with its amount and,
@@ -23,11 +26,15 @@ struct Measured {
 /// 6 and `schedule.waveform`: a sweep that is no curve, so that nothing can be timed.
 ///
 /// One finding per culprit: the worst of both eyes and all frames. A remedy is tried on the project before it is
-/// offered, except for what only compiling can measure.
+/// offered, except for what only compiling can measure. Where no change near the culprit helps and it is known what all
+/// frames need, the remedy is the solver's whole proposal.
 std::vector<Finding> check(const Project& project, const ScheduleResult& schedule, const Measured& measured);
 
 /// The same with projector models of one's own.
 std::vector<Finding> check(const Project& project, const ScheduleResult& schedule, const Measured& measured,
                            std::span<const ProjectorModelData> models);
+
+/// Whether `Measured::needs`, where they are not there yet, could give one of the findings a better remedy.
+bool needs_would_help(const std::vector<Finding>& findings);
 
 }  // namespace focalstage

@@ -101,14 +101,20 @@ std::optional<int> rank(const Project& before, const Project& after, const Findi
 std::vector<Edit> remedy_for(const Project& project, const Finding& finding, const Measured& measured,
                              const std::vector<Finding>& present, std::span<const ProjectorModelData> models) {
   std::optional<std::pair<int, Edits>> best;
-  for (Candidate& candidate : candidates_for(project, finding, measured, models)) {
-    if (candidate.edits.empty() || (candidate.gives_up && best)) continue;
-    const Result<Project> after = apply_all(project, candidate.edits);
-    if (!after) continue;
-    const std::optional<int> ranked = rank(project, *after, finding, present, models);
-    if (ranked && (!best || *ranked < best->first)) best = {*ranked, std::move(candidate.edits)};
-    if (best && best->first == 0) break;
-  }
+  const auto try_each = [&](Candidates candidates, bool giving_up) {
+    for (Candidate& candidate : candidates) {
+      if (candidate.edits.empty() || candidate.gives_up != giving_up || (giving_up && best)) continue;
+      const Result<Project> after = apply_all(project, candidate.edits);
+      if (!after) continue;
+      const std::optional<int> ranked = rank(project, *after, finding, present, models);
+      if (ranked && (!best || *ranked < best->first)) best = {*ranked, std::move(candidate.edits)};
+      if (best && best->first == 0) return;
+    }
+  };
+  const Candidates near = candidates_for(project, finding, measured, models);
+  try_each(near, false);
+  if (!best && solver_answers(finding.code)) try_each(solver_candidates(project, measured, models), false);
+  if (!best) try_each(near, true);
   return best ? best->second : Edits{};
 }
 

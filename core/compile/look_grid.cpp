@@ -73,6 +73,11 @@ glm::dvec2 LookGrid::look(int column, int row) const {
           bounds_.min_y + (static_cast<double>(bounds_.max_y) - bounds_.min_y) * (row + 0.5) / side_};
 }
 
+double LookGrid::look_area() const {
+  return (static_cast<double>(bounds_.max_x) - bounds_.min_x) * (static_cast<double>(bounds_.max_y) - bounds_.min_y) /
+         (static_cast<double>(side_) * side_);
+}
+
 void LookGrid::cut_into_pieces(const std::vector<ViewDrawable>& drawables) {
   pieces_.clear();
   for (std::uint32_t i = 0; i < drawables.size(); ++i) {
@@ -146,11 +151,11 @@ std::vector<LookGrid::Hit> LookGrid::hits_of(const Piece& piece, const Mesh& mes
 
 void LookGrid::keep_nearest(const std::vector<std::vector<Hit>>& hits) {
   met_.assign(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), -1);
-  std::vector<double> inverse_m(met_.size(), 0.0);
+  inverse_m_.assign(met_.size(), 0.0);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     for (const Hit& hit : hits[i]) {
-      if (!(hit.inverse_m > inverse_m[hit.look])) continue;
-      inverse_m[hit.look] = hit.inverse_m;
+      if (!(hit.inverse_m > inverse_m_[hit.look])) continue;
+      inverse_m_[hit.look] = hit.inverse_m;
       met_[hit.look] = static_cast<std::int32_t>(pieces_[i].drawable);
     }
   }

@@ -30,6 +30,12 @@ class LookGrid {
   /// The drawable that a look meets first, or -1.
   std::int32_t met(int column, int row) const { return met_[static_cast<std::size_t>(row * side_ + column)]; }
 
+  /// How far along the axis it was met; infinite where nothing was.
+  double depth_m(int column, int row) const { return 1.0 / inverse_m_[static_cast<std::size_t>(row * side_ + column)]; }
+
+  /// The part of the tangent plane that one look stands for.
+  double look_area() const;
+
  private:
   /// Some triangles of one drawable: what one task works on.
   struct Piece {
@@ -56,6 +62,7 @@ class LookGrid {
   int side_ = 0;
   Box bounds_{};
   std::vector<std::int32_t> met_;  ///< [row][column]
+  std::vector<double> inverse_m_;  ///< likewise, 1 / distance along the axis; 0 where nothing was met
   std::vector<Seen> seen_;         ///< each drawable
   std::vector<Piece> pieces_;
 };

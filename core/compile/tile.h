@@ -9,6 +9,9 @@ namespace focalstage {
 inline constexpr int tile_side = 8;
 inline constexpr int tile_samples = tile_side * tile_side;
 
+/// How many tiles hold `samples` along one side; one at least.
+constexpr int tiles_across(int samples) { return samples > tile_side ? (samples + tile_side - 1) / tile_side : 1; }
+
 /// A rectangle of the tangent plane; empty while `min` exceeds `max`.
 struct Box {
   float min_x, min_y, max_x, max_y;

@@ -15,6 +15,7 @@ std::span<const Command> commands() {
       Command{"rig", "ask a rig for its state, or play, hold, black out", declare_rig},
       Command{"import", "say what a mesh or glTF file holds", declare_import},
       Command{"apply", "apply a file of edits to a project", declare_apply},
+      Command{"solve", "find the sweep and the slices that a project needs", declare_solve},
       Command{"adopt-rig", "set a project to what a rig measured of itself", declare_adopt_rig},
       Command{"trials", "run a depth-matching study and report on it", declare_trials},
       Command{"runtime", "start the rig daemon (focalstage-runtime)", declare_runtime},

@@ -8,6 +8,7 @@
 #include "core/optics/image_plan.h"
 #include "core/schedule/schedule.h"
 #include "editor/pipeline/frame_queue.h"
+#include "editor/pipeline/measure_needs.h"
 #include "io/show/writer.h"
 
 namespace focalstage {
@@ -34,8 +35,17 @@ Result<FrameRange> range_of(const Project& project, const std::optional<FrameRan
   return range;
 }
 
-std::vector<Finding> findings_of(const Source& source, const ScheduleResult& schedule, const Measured& measured) {
+/// What all frames need is measured only where a remedy may come of it.
+Result<std::vector<Finding>> findings_of(const Source& source, const ScheduleResult& schedule, Measured measured,
+                                         FrameRange frames, const std::stop_token& stop) {
   std::vector<Finding> findings = check(source.project, schedule, measured);
+  if (needs_would_help(findings)) {
+    auto needs = measure_needs(
+        source.project, source.loaded.assets, frames, [](int, int) {}, stop);
+    if (!needs) return needs.fault();
+    measured.needs = *std::move(needs);
+    findings = check(source.project, schedule, measured);
+  }
   findings.insert(findings.end(), source.notes.begin(), source.notes.end());
   return findings;
 }
@@ -104,7 +114,9 @@ Result<CompileReport> compile_show(const Source& source, const CompileJob& job, 
   if (Status finished = writer->finish(stop); !finished) {
     return stop.stop_requested() ? cancelled(job) : finished.fault();
   }
-  report.findings = findings_of(source, schedule, *measured);
+  auto findings = findings_of(source, schedule, *std::move(measured), *range, stop);
+  if (!findings) return findings.fault();
+  report.findings = *std::move(findings);
   return report;
 }
 
@@ -124,7 +136,7 @@ Result<std::vector<Finding>> check_project(const Source& source, const EngineCho
     measured.frames.push_back(std::move(made->measure));
     progress(k + 1, range->end);
   }
-  return findings_of(source, schedule, measured);
+  return findings_of(source, schedule, std::move(measured), *range, stop);
 }
 
 Result<std::vector<Finding>> check_show(const Source& source, const ShowReader& show, const FrameProgress& progress,
@@ -140,7 +152,8 @@ Result<std::vector<Finding>> check_show(const Source& source, const ShowReader& 
     measured.coverage.push_back(maker.coverage());
     progress(k + 1, header.frames);
   }
-  return findings_of(source, schedule, measured);
+  const FrameRange frames{header.first_frame, header.first_frame + header.frames};
+  return findings_of(source, schedule, std::move(measured), frames, stop);
 }
 
 }  // namespace focalstage

@@ -3,18 +3,9 @@
 #include <utility>
 
 #include "core/reference/reference.h"
+#include "editor/pipeline/measure_needs.h"
 
 namespace focalstage {
-namespace {
-
-/// Whether two moments give the same images: everything but the time.
-bool same_room(const Stage& a, const Stage& b) {
-  return a.world_from_viewer == b.world_from_viewer && a.interpupillary_m == b.interpupillary_m &&
-         a.surfaces == b.surfaces && a.objects == b.objects && a.lights == b.lights;
-}
-
-}  // namespace
-
 FrameMaker::FrameMaker(const Source& source, EngineChoice choice)
     : source_(source),
       choice_(choice),

@@ -21,6 +21,7 @@ void add_view_commands(CommandList& list);
 void add_eye_commands(CommandList& list);
 void add_rig_commands(CommandList& list);
 void add_finding_commands(CommandList& list);
+void add_solve_commands(CommandList& list);
 
 // Why a command cannot be done, as most of them put it.
 std::string always(const Session& session);

@@ -26,6 +26,7 @@ std::span<const Command> commands() {
     add_eye_commands(made);
     add_rig_commands(made);
     add_finding_commands(made);
+    add_solve_commands(made);
     return made;
   }();
   return list;

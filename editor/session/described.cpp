@@ -77,6 +77,19 @@ Value value_of(const CompiledSlices& slices) {
   return value;
 }
 
+Value value_of(const SolveOffer& offer) {
+  Value value;
+  value.set("solved", offer.solved());
+  Value::Array words;
+  for (const std::string& line : offer.words) words.emplace_back(line);
+  value.set("words", std::move(words));
+  const auto& rig = offer.report.result.rig;
+  value.set("powers_d", rig ? Value(Value::Array(rig->powers_d.begin(), rig->powers_d.end())) : Value());
+  value.set("edits", static_cast<double>(offer.report.edits.size()));
+  value.set("nearest", static_cast<double>(offer.report.nearest.size()));
+  return value;
+}
+
 }  // namespace
 
 Value Session::described() const {
@@ -109,6 +122,8 @@ Value Session::described() const {
   value.set("checked", known && known->measured && known->revision == revision());
   const auto eye = eye_picture();
   value.set("eye_revision", eye ? Value(static_cast<double>(eye->revision)) : Value());
+  const auto offer = solve_offer();
+  value.set("solve", offer ? value_of(*offer) : Value());
   value.set("compiling", compiling());
   value.set("dragging", dragging());
   value.set("rig", value_of(rig().status()));

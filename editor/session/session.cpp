@@ -288,6 +288,12 @@ void Session::read_pixel(Side side, glm::ivec2 pixel) { state_->reader.ask(slice
 std::shared_ptr<const PixelReading> Session::pixel_reading() const { return state_->reader.answer(); }
 bool Session::compiling() const { return state_->preview.busy(); }
 std::optional<Fault> Session::compile_fault() const { return state_->preview.fault(); }
+
+std::shared_ptr<const SolveOffer> Session::solve_offer() const {
+  const auto& offer = state_->solve_offer;
+  return offer && offer->revision == revision() ? offer : nullptr;
+}
+
 const RigLink& Session::rig() const { return state_->rig; }
 const Log& Session::log() const { return state_->log; }
 const std::vector<Task>& Session::tasks() const { return state_->jobs.tasks(); }

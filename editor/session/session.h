@@ -18,6 +18,7 @@
 #include "editor/session/log.h"
 #include "editor/session/sample_cards.h"
 #include "editor/session/selection.h"
+#include "editor/session/solve_offer.h"
 #include "editor/session/task.h"
 #include "editor/session/view_state.h"
 
@@ -77,6 +78,9 @@ class Session {
   std::optional<Fault> compile_fault() const;
   /// Everything wrong with the project, what cannot be read of its files included.
   std::vector<Finding> findings() const;
+
+  /// What the solver proposes for the present revision, until it is applied or discarded; null: nothing.
+  std::shared_ptr<const SolveOffer> solve_offer() const;
 
   const RigLink& rig() const;
   const Log& log() const;

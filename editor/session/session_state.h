@@ -69,6 +69,8 @@ struct Session::State {
   RigDescription rig_checked;
   std::string rig_fault_said;
 
+  std::shared_ptr<const SolveOffer> solve_offer;  ///< of any revision
+
   glm::ivec2 eye_size_px{400, 300};
   std::optional<FocusQuestion> focus_question;
   int focus_answered = 0;

@@ -10,6 +10,7 @@
 #include "editor/window/panels/palette_panel.h"
 #include "editor/window/panels/properties_panel.h"
 #include "editor/window/panels/question_panel.h"
+#include "editor/window/panels/solve_panel.h"
 #include "editor/window/panels/start_panel.h"
 #include "editor/window/panels/timeline_panel.h"
 
@@ -25,6 +26,7 @@ std::vector<std::unique_ptr<Panel>> make_panels() {
   panels.push_back(make_findings_panel());
   panels.push_back(make_history_panel());
   panels.push_back(make_log_panel());
+  panels.push_back(make_solve_panel());
   panels.push_back(make_notice_panel());
   panels.push_back(make_palette_panel());
   panels.push_back(make_file_panel());

@@ -86,6 +86,11 @@ void TimePane::draw(Session& session, const PaneRect& rect) {
     axes.low_d = std::min(axes.low_d, power_d);
     axes.high_d = std::max(axes.high_d, power_d);
   }
+  const auto offer = session.solve_offer();
+  if (offer && offer->solved()) {
+    axes.low_d = std::min(axes.low_d, offer->report.result.rig->min_power_d);
+    axes.high_d = std::max(axes.high_d, offer->report.result.rig->max_power_d);
+  }
   const double margin_d = 0.12 * std::max(axes.high_d - axes.low_d, 0.1);
   axes.low_d -= margin_d;
   axes.high_d += margin_d;
@@ -99,9 +104,11 @@ void TimePane::draw(Session& session, const PaneRect& rect) {
   draw_axes(axes);
   draw_shutters(axes);
   draw_slots(axes);
+  if (offer && offer->solved()) draw_offer(*offer, axes);
   scrub(session, axes);
   drag_slices(session, axes);
   draw_reading(axes);
+  draw_solve(session, rect);
 }
 
 void TimePane::draw_axes(const Axes& axes) const {
@@ -163,16 +170,38 @@ void TimePane::draw_slots(const Axes& axes) const {
     list.AddTriangleFilled({trigger - px(3), bottom + px(6)}, {trigger + px(3), bottom + px(6)}, {trigger, bottom},
                            theme::text);
   }
+  draw_curves(axes, *axes.schedule, power_colour, px(2));
+}
+
+/// The lenses' power over the period.
+void TimePane::draw_curves(const Axes& axes, const Schedule& schedule, std::uint32_t colour, float width) const {
   constexpr int points = 240;
   for (const Side side : both_sides) {
-    const auto& samples = axes.schedule->lens_power_d[side];
-    if (side == Side::right && samples == axes.schedule->lens_power_d[Side::left]) continue;
+    const auto& samples = schedule.lens_power_d[side];
+    if (side == Side::right && samples == schedule.lens_power_d[Side::left]) continue;
     std::vector<ImVec2> line;
     for (int i = 0; i <= points; ++i) {
       const double share = i / static_cast<double>(points);
       line.push_back({axes.x(share * axes.period_s), axes.y(sample_at(samples, share))});
     }
-    list.AddPolyline(line.data(), static_cast<int>(line.size()), power_colour, 0, px(2));
+    ImGui::GetWindowDrawList()->AddPolyline(line.data(), static_cast<int>(line.size()), colour, 0, width);
+  }
+}
+
+/// The sweep and the slices as the solver proposes them: a thin curve, a ring at each exposure, dashes across.
+void TimePane::draw_offer(const SolveOffer& offer, const Axes& axes) const {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  draw_curves(axes, offer.schedule, theme::with_alpha(theme::green, 0.9), px(1.5f));
+  for (const Slot& slot : offer.schedule.slots) {
+    list.AddCircle({axes.x(slot.start_s + 0.5 * slot.exposure_s), axes.y(slot.power_d)}, px(4), theme::green, 16,
+                   px(1.5f));
+  }
+  const float end = axes.plot.min.x + axes.plot.size.x;
+  for (const double power_d : offer.report.result.rig->powers_d) {
+    const float y = axes.y(power_d);
+    for (float x = axes.plot.min.x; x < end; x += px(10)) {
+      list.AddLine({x, y}, {std::min(x + px(4), end), y}, theme::with_alpha(theme::green, 0.7));
+    }
   }
 }
 
@@ -212,6 +241,15 @@ void TimePane::drag_slices(Session& session, const Axes& axes) {
     held_slice_.reset();
     session.end_drag();
   }
+}
+
+void TimePane::draw_solve(Session& session, const PaneRect& rect) const {
+  const Command& command = *command_named("solve.start");
+  const std::string unavailable = command.unavailable(session);
+  ButtonStyle style;
+  style.icon = command.icon;
+  style.tip = {command.help, command.shortcut, unavailable};
+  if (Chips(rect, Chips::Corner::top_left).button("Solve", "Solve", style)) (void)session.run(command.id);
 }
 
 /// A press in the plot chooses the moment that all views follow; a double-click lets go of it.

@@ -7,8 +7,10 @@
 
 namespace focalstage {
 
+struct SolveOffer;
+
 /// One sweep: lens power, exposures, triggers, shutters and dead windows on one axis. Slices' powers can be dragged up
-/// and down on it, and a moment chosen that all views follow.
+/// and down on it, and a moment chosen that all views follow. What the solver proposes shows beside what is there.
 class TimePane : public Pane {
  public:
   std::string_view title() const override { return "Sweep"; }
@@ -23,7 +25,10 @@ class TimePane : public Pane {
   void draw_axes(const Axes& axes) const;
   void draw_shutters(const Axes& axes) const;
   void draw_slots(const Axes& axes) const;
+  void draw_curves(const Axes& axes, const Schedule& schedule, std::uint32_t colour, float width) const;
+  void draw_offer(const SolveOffer& offer, const Axes& axes) const;
   void drag_slices(Session& session, const Axes& axes);
+  void draw_solve(Session& session, const PaneRect& rect) const;
   void scrub(Session& session, const Axes& axes);
   void draw_reading(const Axes& axes) const;
 

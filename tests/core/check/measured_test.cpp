@@ -147,3 +147,47 @@ TEST_CASE("light and focus of the projector, with the share of pixels") {
   CHECK(findings[1].message.find("0.7 D") != std::string::npos);
   CHECK(findings[0].severity == Severity::warning);
 }
+
+namespace {
+
+/// What one object needs that wants every power from `low_d` to `high_d`.
+Needs needs_from(double low_d, double high_d) {
+  ObjectNeeds object;
+  object.looks = 100;
+  for (double power_d = low_d; power_d <= high_d + 1e-9; power_d += 0.01) object.powers.left.add(power_d, 1);
+  return {{object}};
+}
+
+}  // namespace
+
+TEST_CASE("slices too dense for the sweep that the outer ones want: the solver's proposal for all frames") {
+  // Three slices 0.3 D apart follow each other in 0.53 ms of a sweep of +-1.5 D. Outer ones want +-1.75 D, in which
+  // they follow in 0.45 ms, and no shift of the object serves both sides.
+  Project project = quiet_project();
+  project.slices.powers_d = {-0.3, 0.0, 0.3};
+  REQUIRE(codes(check_of(project)) == Codes{});
+  Measured measured = with({beyond(0, 1.0, 1.0)});
+  CHECK(check_of(project, measured).at(0).remedy.empty());
+  measured.needs = needs_from(-1.3, 1.3);
+  const std::vector<Finding> findings = check_of(project, measured);
+  REQUIRE(codes(findings) == Codes{"depth.out-of-range"});
+  REQUIRE_FALSE(findings[0].remedy.empty());
+  const Result<Project> after = apply_all(project, findings[0].remedy);
+  REQUIRE(after);
+  CHECK_FALSE(has_error(check_of(*after)));
+  CHECK(after->slices.powers_d.front() <= -1.3 + 0.3);
+  CHECK(after->slices.powers_d.back() >= 1.3 - 0.3);
+
+  measured.needs = needs_from(-5.0, 5.0);  // what the rig cannot do is not offered
+  CHECK(check_of(project, measured).at(0).remedy.empty());
+}
+
+TEST_CASE("needs help only where slices and sweep do not reach") {
+  CHECK(needs_would_help(check_of(quiet_project(), with({beyond(0, 0.0, 0.5)}))));
+  CHECK_FALSE(needs_would_help({}));
+  Project project = quiet_project();
+  project.sweep.frequency_hz = 45;
+  project.frames.rate_hz = 45;
+  CHECK(codes(check_of(project)) == Codes{"safety.flicker"});
+  CHECK_FALSE(needs_would_help(check_of(project)));
+}

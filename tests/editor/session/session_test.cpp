@@ -336,3 +336,63 @@ TEST_CASE("push to a simulated rig, play, live, blackout") {
   CHECK(std::any_of(session.log().begin(), session.log().end(),
                     [](const LogLine& line) { return line.kind == LogLine::Kind::fault; }));
 }
+
+TEST_CASE("solving: offered, applied as one step, void after an edit, refused with reasons") {
+  const Home home;
+  Session session([] {});
+  CHECK_FALSE(session.run("solve.start").ok());  // nothing is open
+  REQUIRE(session.run("file.new", args({{"from", "three-rabbits"}})).ok());
+  CHECK_FALSE(session.run("solve.apply").ok());
+  const std::vector<double> before = session.project().slices.powers_d;
+
+  REQUIRE(session.run("solve.start").ok());
+  CHECK_FALSE(session.run("solve.start").ok());  // it runs already
+  REQUIRE(wait(session, [&] { return session.solve_offer() != nullptr; }));
+  CHECK(session.project().slices.powers_d == before);
+  CHECK(session.solve_offer()->solved());
+  CHECK_FALSE(session.solve_offer()->words.empty());
+  CHECK_FALSE(session.solve_offer()->schedule.slots.empty());
+  REQUIRE(session.run("solve.apply").ok());
+  CHECK(session.project().slices.powers_d == std::vector<double>{-1.0, -0.5, 0.0, 0.5, 1.0});
+  CHECK(session.solve_offer() == nullptr);
+  REQUIRE(session.run("edit.undo").ok());
+  CHECK(session.project().slices.powers_d == before);
+
+  REQUIRE(session.run("solve.start").ok());
+  REQUIRE(wait(session, [&] { return session.solve_offer() != nullptr; }));
+  REQUIRE(session.run("slice.set", args({{"index", 0.0}, {"power_d", -0.9}})).ok());
+  CHECK(session.solve_offer() == nullptr);
+
+  REQUIRE(session.run("solve.start", args({{"slices", 40.0}})).ok());
+  REQUIRE(wait(session, [&] { return session.solve_offer() != nullptr; }));
+  CHECK_FALSE(session.solve_offer()->solved());
+  CHECK_FALSE(session.solve_offer()->report.nearest.empty());
+  CHECK_FALSE(session.run("solve.apply", args({{"nearest", 99.0}})).ok());
+  REQUIRE(session.run("solve.apply", args({{"nearest", 0.0}})).ok());
+  CHECK(session.project().slices.powers_d.size() > 3);
+
+  CHECK_FALSE(session.run("solve.start", args({{"slices", 0.0}})).ok());
+  CHECK_FALSE(session.run("solve.start", args({{"spacing_d", -1.0}})).ok());
+}
+
+TEST_CASE("a project edited while it is solved gets no offer; a cancelled solve says nothing") {
+  const Home home;
+  Session session([] {});
+  REQUIRE(session.run("file.new", args({{"from", "first-light"}})).ok());
+  REQUIRE(session.run("solve.start").ok());
+  REQUIRE(session.run("slice.set", args({{"index", 0.0}, {"power_d", -0.9}})).ok());
+  REQUIRE(wait(
+      session, [&] { return session.tasks().empty(); }, 60.0));
+  CHECK(session.solve_offer() == nullptr);
+  REQUIRE(session.notice());
+  CHECK(session.notice()->text.find("edited while it was solved") != std::string::npos);
+
+  session.dismiss_notice();
+  REQUIRE(session.run("solve.start").ok());
+  session.update(now_s());
+  for (const Task& task : session.tasks()) session.cancel_task(task.id);
+  REQUIRE(wait(
+      session, [&] { return session.tasks().empty(); }, 60.0));
+  CHECK(session.solve_offer() == nullptr);
+  CHECK_FALSE(session.notice());
+}
