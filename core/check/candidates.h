@@ -76,4 +76,7 @@ Candidates solver_candidates(const Project& project, const Measured& measured,
 
 Candidates depth_candidates(const Project& project, const Finding& finding, const Measured& measured);
 
+/// Focus where it stands, for an object that is told to focus elsewhere.
+Candidates conflict_candidates(const Project& project, const Finding& finding);
+
 }  // namespace focalstage

@@ -90,4 +90,15 @@ Candidates depth_candidates(const Project& project, const Finding& finding, cons
   return candidates;
 }
 
+Candidates conflict_candidates(const Project& project, const Finding& finding) {
+  for (std::size_t i = 0; i < project.objects.size(); ++i) {
+    const Object& object = project.objects[i];
+    if (finding.where != item_pointer("objects", i) + "/depth" || object.depth.mode == DepthMode::placed) continue;
+    Value placed;
+    placed.set("mode", "placed");
+    return {{{set_edit("objects", object.name, "depth", std::move(placed))}}};
+  }
+  return {};
+}
+
 }  // namespace focalstage

@@ -2,6 +2,7 @@
 
 #include "core/check/rules.h"
 #include "core/check/words.h"
+#include "core/percept/conflict.h"
 
 namespace focalstage {
 namespace {
@@ -101,6 +102,21 @@ void check_coverage(const Project& project, const Measured& measured, std::vecto
   }
 }
 
+/// What eyes that converge on a thing and focus elsewhere soon tire of.
+void check_conflicts(const Project& project, const Measured& measured, std::vector<Finding>& findings) {
+  for (const ObjectConflict& conflict : measured.conflicts) {
+    if (std::abs(conflict.mean_d) <= comfort_d) continue;
+    const char* const way = conflict.mean_d > 0.0 ? " D further away than" : " D nearer than";
+    findings.push_back({Severity::warning,
+                        "view.conflict",
+                        item_pointer("objects", conflict.index) + "/depth",
+                        "object " + name_of(project, conflict.index) + " comes into focus " +
+                            words(std::abs(conflict.mean_d)) + way + " the eyes converge on it",
+                        Amount{conflict.mean_d, comfort_d, "D"},
+                        {}});
+  }
+}
+
 void check_light(const Project& project, const Measured& measured, std::vector<Finding>& findings) {
   Worst clipped;
   Worst defocused;
@@ -133,6 +149,7 @@ std::vector<Finding> view_findings(const Project& project, const Measured& measu
   check_slice_indices(project, findings);
   check_coverage(project, measured, findings);
   check_light(project, measured, findings);
+  check_conflicts(project, measured, findings);
   return findings;
 }
 

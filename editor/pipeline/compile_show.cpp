@@ -7,6 +7,7 @@
 #include "core/check/check.h"
 #include "core/optics/image_plan.h"
 #include "core/schedule/schedule.h"
+#include "editor/pipeline/conflict_meter.h"
 #include "editor/pipeline/frame_queue.h"
 #include "editor/pipeline/measure_needs.h"
 #include "io/show/writer.h"
@@ -48,6 +49,16 @@ Result<std::vector<Finding>> findings_of(const Source& source, const ScheduleRes
   }
   findings.insert(findings.end(), source.notes.begin(), source.notes.end());
   return findings;
+}
+
+Result<CheckReport> checked(const Source& source, const ScheduleResult& schedule, Measured measured,
+                            const ConflictMeter& conflict, FrameRange frames, const std::stop_token& stop) {
+  CheckReport report;
+  report.conflicts = measured.conflicts = conflict.conflicts();
+  auto findings = findings_of(source, schedule, std::move(measured), frames, stop);
+  if (!findings) return findings.fault();
+  report.findings = *std::move(findings);
+  return report;
 }
 
 /// Where finished frames go: to a thread of its own, or, with one thread to use, straight to the file.
@@ -120,12 +131,13 @@ Result<CompileReport> compile_show(const Source& source, const CompileJob& job, 
   return report;
 }
 
-Result<std::vector<Finding>> check_project(const Source& source, const EngineChoice& engine,
-                                           const FrameProgress& progress, std::stop_token stop) {
+Result<CheckReport> check_project(const Source& source, const EngineChoice& engine, const FrameProgress& progress,
+                                  std::stop_token stop) {
   const auto range = range_of(source.project, std::nullopt);
   if (!range) return range.fault();
   FrameMaker maker(source, engine);
   const ScheduleResult schedule = make_schedule(source.project, maker.settings().images);
+  ConflictMeter conflict(source.project, maker.settings(), schedule.schedule);
   Measured measured;
   for (int k = 0; k < range->end; ++k) {
     if (stop.stop_requested()) return cancelled(source.project.name, "");
@@ -133,27 +145,36 @@ Result<std::vector<Finding>> check_project(const Source& source, const EngineCho
     auto made = maker.compile(stop);
     if (!made) return made.fault();
     measured.coverage.push_back(maker.coverage());
+    if (looked_at_for_conflict(k, range->end)) {
+      if (Status seen = conflict.add(maker.stage(), *made->images, stop); !seen) return seen.fault();
+    }
     measured.frames.push_back(std::move(made->measure));
     progress(k + 1, range->end);
   }
-  return findings_of(source, schedule, std::move(measured), *range, stop);
+  return checked(source, schedule, std::move(measured), conflict, *range, stop);
 }
 
-Result<std::vector<Finding>> check_show(const Source& source, const ShowReader& show, const FrameProgress& progress,
-                                        std::stop_token stop) {
+Result<CheckReport> check_show(const Source& source, const ShowReader& show, const FrameProgress& progress,
+                               std::stop_token stop) {
   const ShowHeader& header = show.header();
   FrameMaker maker(source, {});
   const ScheduleResult schedule = make_schedule(source.project, maker.settings().images);
+  ConflictMeter conflict(source.project, maker.settings(), header.schedule);
   Measured measured;
   measured.frames = show.measures();
   for (int k = 0; k < header.frames; ++k) {
     if (stop.stop_requested()) return cancelled(source.project.name, "");
     if (Status stood = maker.stand_up(header.first_frame + k); !stood) return stood.fault();
     measured.coverage.push_back(maker.coverage());
+    if (looked_at_for_conflict(k, header.frames)) {
+      const auto images = show.frame(k);
+      if (!images) return images.fault();
+      if (Status seen = conflict.add(maker.stage(), *images, stop); !seen) return seen.fault();
+    }
     progress(k + 1, header.frames);
   }
   const FrameRange frames{header.first_frame, header.first_frame + header.frames};
-  return findings_of(source, schedule, std::move(measured), frames, stop);
+  return checked(source, schedule, std::move(measured), conflict, frames, stop);
 }
 
 }  // namespace focalstage

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/check/check.h"
 #include "core/scene/finding.h"
 #include "editor/pipeline/frame_maker.h"
 #include "editor/pipeline/source.h"
@@ -39,12 +40,17 @@ using FrameProgress = std::function<void(int done, int of)>;
 Result<CompileReport> compile_show(const Source& source, const CompileJob& job, const FrameProgress& progress,
                                    std::stop_token stop);
 
-/// The findings of a project without writing anything: every frame is compiled and measured.
-Result<std::vector<Finding>> check_project(const Source& source, const EngineChoice& engine,
+struct CheckReport {
+  std::vector<Finding> findings;
+  std::vector<ObjectConflict> conflicts;  ///< of objects that are lit, in the project's order
+};
+
+/// The findings of a project without writing anything: every frame is compiled and measured, some are looked at.
+Result<CheckReport> check_project(const Source& source, const EngineChoice& engine,
                                            const FrameProgress& progress, std::stop_token stop);
 
 /// The findings of a show: what compiling measured stands in it, the rest is measured again.
-Result<std::vector<Finding>> check_show(const Source& source, const ShowReader& show, const FrameProgress& progress,
+Result<CheckReport> check_show(const Source& source, const ShowReader& show, const FrameProgress& progress,
                                         std::stop_token stop);
 
 }  // namespace focalstage

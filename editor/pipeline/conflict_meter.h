@@ -1,0 +1,46 @@
+#pragma once
+
+#include <stop_token>
+#include <vector>
+
+#include "core/check/check.h"
+#include "core/compile/frame.h"
+#include "core/percept/seen_frame.h"
+#include "core/retina/retina.h"
+#include "core/schedule/schedule.h"
+#include "core/stage/stage.h"
+
+namespace focalstage {
+
+/// Which of `frames` frames are looked at for conflict: all of a few, else so many spread evenly, first and last among
+/// them. A look takes two retinas; a show of minutes would take longer to look at than to compile.
+bool looked_at_for_conflict(int frame, int frames);
+
+/// Measures, over frames and both eyes, where vergence and accommodation part: object by object, by its light.
+class ConflictMeter {
+ public:
+  ConflictMeter(const Project& project, CompileSettings settings, Schedule schedule);
+
+  /// Faults: those of Retina.
+  Status add(const Stage& stage, const FrameImages& images, std::stop_token stop);
+
+  /// Objects of which something was lit, in the project's order.
+  std::vector<ObjectConflict> conflicts() const;
+
+ private:
+  /// Sums over eyes and frames of one object.
+  struct Sum {
+    double light = 0.0;
+    double mean_d = 0.0;  ///< times light
+    double beyond = 0.0;  ///< times light
+    double worst_d = 0.0;
+  };
+
+  CompileSettings settings_;
+  Schedule schedule_;
+  WornGlasses glasses_;
+  PerEye<Retina> retinas_;
+  std::vector<Sum> sums_;  ///< by the object's index in the project
+};
+
+}  // namespace focalstage
