@@ -94,7 +94,8 @@ TEST_CASE("schedule.overlap") { check_code("schedule.overlap", Severity::error, 
 TEST_CASE("schedule.smear") { check_code("schedule.smear", Severity::warning, true); }
 TEST_CASE("schedule.bit-depth") { check_code("schedule.bit-depth", Severity::error, true); }
 TEST_CASE("schedule.no-zero-crossing") { check_code("schedule.no-zero-crossing", Severity::error, true); }
-TEST_CASE("optics.lens-range") { check_code("optics.lens-range", Severity::error, true); }
+TEST_CASE("optics.lens-range") { check_code("optics.lens-current", "optics.lens-range", Severity::error, true); }
+TEST_CASE("optics.lens-current") { check_code("optics.lens-current", Severity::error, true); }
 TEST_CASE("depth.out-of-range") { check_code("depth.out-of-range", Severity::error, true); }
 TEST_CASE("frames.rate") { check_code("frames.rate", Severity::error, true); }
 TEST_CASE("safety.flicker") { check_code("safety.flicker", Severity::warning, true); }
