@@ -28,6 +28,8 @@ struct SlotReport {
   int eye = 0;
   double asked_power_d = 0.0;
   double delivered_power_d = 0.0;
+  double asked_smear_d = 0.0;  ///< how much the power changes over the exposure
+  double delivered_smear_d = 0.0;
   double asked_s = 0.0;
   double delivered_s = 0.0;
   bool right_image = false;
