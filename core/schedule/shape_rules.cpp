@@ -1,23 +1,16 @@
 #include "core/schedule/shape_rules.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
+#include "core/schedule/shape_words.h"
 #include "core/schedule/slots.h"
 
 namespace focalstage {
 namespace {
 
 constexpr double same_power_d = 1e-6;
-
-std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", value);
-  return text.data();
-}
 
 /// The powers that each eye is shown, light at zero among them, rising.
 Result<std::vector<double>> powers_of(const std::vector<ImageSpec>& images) {
@@ -32,8 +25,8 @@ Result<std::vector<double>> powers_of(const std::vector<ImageSpec>& images) {
   std::sort(powers_d.begin(), powers_d.end());
   for (std::size_t k = 1; k < powers_d.size(); ++k) {
     if (powers_d[k] - powers_d[k - 1] > same_power_d) continue;
-    return Fault{"shape.slices", "/slices/powers_d", "two slices at " + number(powers_d[k]) + " D cannot both be shown",
-                 "remove one of them"};
+    return Fault{"shape.slices", "/slices/powers_d",
+                 "two slices at " + shape_number(powers_d[k]) + " D cannot both be shown", "remove one of them"};
   }
   return powers_d;
 }
@@ -80,7 +73,7 @@ Status check_response(const Glasses& glasses) {
       }
       return Fault{"shape.limits", "/glasses/lens_response",
                    "harmonic " + std::to_string(entry.harmonic) + " of the lens cannot be driven: its gain is " +
-                       number(entry.gain_d_per_a) + " D/A",
+                       shape_number(entry.gain_d_per_a) + " D/A",
                    "measure the lens again, or adopt-rig"};
     }
   }
@@ -93,8 +86,8 @@ Status check_room(const ShapeTask& task) {
   const double there_s = task.clear.length_s();
   if (needed_s <= there_s) return {};
   return Fault{"shape.room", "/slices/powers_d",
-               std::to_string(task.powers_d.size()) + " exposures take " + number(needed_s * 1000.0) +
-                   " ms of each half; the shutters leave " + number(there_s * 1000.0) + " ms",
+               std::to_string(task.powers_d.size()) + " exposures take " + shape_number(needed_s * 1000.0) +
+                   " ms of each half; the shutters leave " + shape_number(there_s * 1000.0) + " ms",
                "remove slices, expose for less, or sweep more slowly"};
 }
 
@@ -103,11 +96,11 @@ ShapeBound harmonic_bound(const Project& project, const LensLimits& limits, cons
   const PerEye<LensResponse>& lenses = project.glasses.lens_response;
   // That a sine can be driven is what every sweep relies on.
   const int measured = std::max(1, std::min(measured_harmonics(lenses.left), measured_harmonics(lenses.right)));
-  ShapeBound bound{ShapeLimit::response, most_shaped_harmonics, static_cast<double>(measured)};
+  ShapeBound bound{ShapeLimit::harmonics, most_shaped_harmonics, most_shaped_harmonics};
   const auto lower = [&](ShapeLimit limit, double allowed) {
     if (allowed < bound.allowed) bound = {limit, most_shaped_harmonics, std::max(1.0, allowed)};
   };
-  lower(ShapeLimit::harmonics, most_shaped_harmonics);
+  lower(ShapeLimit::response, measured);
   if (limits.max_frequency_hz) {
     lower(ShapeLimit::frequency, std::floor(*limits.max_frequency_hz / project.sweep.frequency_hz + 1e-9));
   }
@@ -152,7 +145,8 @@ Result<ShapeRules> shape_rules(const Project& project, const std::vector<ImageSp
   if (Status room = check_room(task); !room) return room.fault();
   if (task.powers_d.front() > task.lowest_d && task.powers_d.back() < task.highest_d) return rules;
   return Fault{"shape.slices", "/slices/powers_d",
-               "a slice lies outside the sweep from " + number(task.lowest_d) + " to " + number(task.highest_d) + " D",
+               "a slice lies outside the sweep from " + shape_number(task.lowest_d) + " to " +
+                   shape_number(task.highest_d) + " D",
                "widen the sweep"};
 }
 

@@ -168,7 +168,7 @@ TEST_CASE("more harmonics never smear more; one is the sine of the right size") 
 TEST_CASE("the harmonics end where the response does, at the highest frequency, or as asked") {
   Project project = sample_rigs().front();
   CHECK(shaped(project)->highest_harmonic == most_shaped_harmonics);
-  CHECK(bound(*shaped(project), ShapeLimit::response));
+  CHECK(bound(*shaped(project), ShapeLimit::harmonics));
   project.glasses.lens_limits.emplace().max_frequency_hz = 500.0;
   CHECK(shaped(project)->highest_harmonic == 8);
   CHECK(bound(*shaped(project), ShapeLimit::frequency)->allowed == 8.0);
