@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "editor/session/session.h"
@@ -99,6 +100,7 @@ void TimePane::draw(Session& session, const PaneRect& rect) {
   draw_axes(axes);
   draw_shutters(axes);
   draw_slots(axes);
+  draw_powers(axes, sweep);
   scrub(session, axes);
   drag_slices(session, axes);
   draw_reading(axes);
@@ -163,16 +165,37 @@ void TimePane::draw_slots(const Axes& axes) const {
     list.AddTriangleFilled({trigger - px(3), bottom + px(6)}, {trigger + px(3), bottom + px(6)}, {trigger, bottom},
                            theme::text);
   }
-  constexpr int points = 240;
-  for (const Side side : both_sides) {
-    const auto& samples = axes.schedule->lens_power_d[side];
-    if (side == Side::right && samples == axes.schedule->lens_power_d[Side::left]) continue;
+}
+
+/// The power of both lenses; faintly the sine that a waveform stands for, and of two lenses that differ the half that
+/// is not seen.
+void TimePane::draw_powers(const Axes& axes, const Sweep& sweep) const {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  constexpr int points = 360;
+  const auto curve = [&](double from, double to, std::uint32_t colour, float thickness, const auto& power_d) {
     std::vector<ImVec2> line;
     for (int i = 0; i <= points; ++i) {
-      const double share = i / static_cast<double>(points);
-      line.push_back({axes.x(share * axes.period_s), axes.y(sample_at(samples, share))});
+      const double share = std::lerp(from, to, i / static_cast<double>(points));
+      line.push_back({axes.x(share * axes.period_s), axes.y(power_d(share))});
     }
-    list.AddPolyline(line.data(), static_cast<int>(line.size()), power_colour, 0, px(2));
+    list.AddPolyline(line.data(), static_cast<int>(line.size()), colour, 0, px(thickness));
+  };
+  if (sweep.waveform.left || sweep.waveform.right) {
+    curve(0.0, 1.0, theme::with_alpha(power_colour, 0.3), 1.0f, [&](double share) {
+      const double middle_d = (sweep.min_power_d + sweep.max_power_d) / 2.0;
+      return middle_d - (sweep.max_power_d - sweep.min_power_d) / 2.0 * std::cos(2.0 * std::numbers::pi * share);
+    });
+  }
+  const PerEye<std::vector<double>>& samples = axes.schedule->lens_power_d;
+  const bool alike = samples.left == samples.right;
+  for (const Side side : both_sides) {
+    if (side == Side::right && alike) continue;
+    const auto power_d = [&](double share) { return sample_at(samples[side], share); };
+    curve(0.0, 1.0, theme::with_alpha(power_colour, alike ? 1.0 : 0.45), alike ? 2.0f : 1.0f, power_d);
+    if (alike || samples[side].empty()) continue;
+    const auto peak = std::max_element(samples[side].begin(), samples[side].end()) - samples[side].begin();
+    const double middle = static_cast<double>(peak) / static_cast<double>(samples[side].size());
+    curve(side == Side::left ? 0.0 : middle, side == Side::left ? middle : 1.0, power_colour, 2.0f, power_d);
   }
 }
 

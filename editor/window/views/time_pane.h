@@ -23,6 +23,7 @@ class TimePane : public Pane {
   void draw_axes(const Axes& axes) const;
   void draw_shutters(const Axes& axes) const;
   void draw_slots(const Axes& axes) const;
+  void draw_powers(const Axes& axes, const Sweep& sweep) const;
   void drag_slices(Session& session, const Axes& axes);
   void scrub(Session& session, const Axes& axes);
   void draw_reading(const Axes& axes) const;
