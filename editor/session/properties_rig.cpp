@@ -150,11 +150,12 @@ void add_waveform_rows(PropertyRows& rows) {
   if (measured) choices.push_back({Value("measured"), "measured"});
   Property& row = rows.choice("waveform", "waveform", std::move(choices));
   row.value = Value(measured ? "measured" : "sine");
-  row.help = "A sine, or what was measured on the rig.";
+  row.help = "A sine, or a period of samples: measured on the rig, or shaped to dwell at the slices.";
   row.edits = [](const PropertyScope&, const Thing& thing, const Property&, const Value& value) -> std::vector<Edit> {
     if (value != Value("sine")) return {};
     return {set_edit(thing, "waveform", value)};
   };
+  rows.action("Shape the sweep", "sweep.shape");
   if (!measured) return;
   rows.shown("left", waveform_text(waves.left));
   rows.shown("right", waveform_text(waves.right));
