@@ -16,7 +16,7 @@ namespace focalstage {
 /// asks for have less smear (R. E. Griffith and R. A. Stewart, A nonlinear programming technique..., Management Science
 /// 7(4), 1961).
 ///
-/// At most 40 programs, so bounded in time (0.2 s for 24 harmonics on one core); no two runs differ.
+/// At most 40 programs, so bounded in time (0.1 to 0.2 s for 24 harmonics); no two runs differ.
 std::optional<HarmonicCurve> shape_curve(const ShapeTask& task, const std::optional<DriveTask>& drive);
 
 }  // namespace focalstage

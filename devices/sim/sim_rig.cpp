@@ -9,8 +9,8 @@ namespace focalstage {
 namespace {
 // How far back a question about lens or shutter may reach: the longest exposure and lag, with room.
 constexpr double remembered_s = 0.25;
-// How many instants of an exposure are looked at for the highest and lowest power: 8 us apart at 0.5 ms.
-constexpr int looks = 64;
+// How many instants of an exposure are looked at for the highest and lowest power: 31 us apart at 0.5 ms.
+constexpr int looks = 16;
 }  // namespace
 
 SimRig::SimRig(const SimSettings& settings, const SimFaults& faults)
