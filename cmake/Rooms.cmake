@@ -47,7 +47,8 @@ focalstage_room(editor/tools    USES core/percept core/compile core/stage core/o
 focalstage_room(editor/preview  USES editor/tools core/check core/compile core/reference core/percept core/retina core/schedule
                                      core/stage)
 focalstage_room(editor/rig      USES io/protocol io/project io/assets io/files)
-focalstage_room(editor/session  USES editor/tools editor/document editor/preview editor/rig editor/pipeline io/export io/image)
+focalstage_room(editor/session  USES editor/tools editor/document editor/preview editor/rig editor/pipeline io/export io/image
+                                     core/schedule)
 
 # the window: GLFW, Dear ImGui and VTK live here and nowhere else
 focalstage_room(editor/window/base   USES editor/session           LIBS imgui::imgui vtk::vtk PRIVATE_LIBS epoxy::epoxy)

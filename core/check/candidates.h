@@ -36,6 +36,8 @@ Candidates sweep_candidates(const Project& project, double low_d, double high_d)
 
 Candidates no_zero_crossing_candidates(const Project& project);
 Candidates lens_range_candidates(const Project& project, const Finding& finding);
+/// The sine in place of a waveform, and the sweep narrowed about its middle until the lenses bear the drive.
+Candidates lens_current_candidates(const Project& project);
 Candidates waveform_candidates(const Project& project);
 Candidates frame_rate_candidates(const Project& project, const Finding& finding);
 Candidates flicker_candidates(const Project& project);

@@ -27,7 +27,7 @@ struct Measured {
   std::vector<FrameMeasure> frames;
   std::vector<std::vector<ObjectCoverage>> coverage;  ///< per frame
   std::vector<ObjectConflict> conflicts;
-  std::optional<Needs> needs;                         ///< of all frames: lets remedies come from the solver
+  std::optional<Needs> needs;  ///< of all frames: lets remedies come from the solver
 };
 
 /// Everything wrong with a project, in a fixed order (errors first, then by code and place), each with its amount and,

@@ -49,6 +49,7 @@ Candidates candidates_for(const Project& project, const Finding& finding, const 
   if (code == "schedule.no-zero-crossing") return no_zero_crossing_candidates(project);
   if (code == "schedule.waveform") return waveform_candidates(project);
   if (code == "optics.lens-range") return lens_range_candidates(project, finding);
+  if (code == "optics.lens-current") return lens_current_candidates(project);
   if (code == "depth.out-of-range") return depth_candidates(project, finding, measured);
   if (code == "view.conflict") return conflict_candidates(project, finding);
   if (code == "frames.rate") return frame_rate_candidates(project, finding);

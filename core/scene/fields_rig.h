@@ -31,6 +31,15 @@ struct LensResponseCodec : Codec<LensResponse> {
 };
 
 template <>
+struct Table<LensLimits> {
+  static constexpr Rule current_a{.low = 0, .high = 10, .above_low = true};
+  static constexpr auto fields =
+      std::make_tuple(field("max_current_a", at(&LensLimits::max_current_a), Presence::always, current_a),
+                      field("max_rms_current_a", at(&LensLimits::max_rms_current_a), Presence::always, current_a),
+                      field("max_frequency_hz", at(&LensLimits::max_frequency_hz), Presence::optional, frequency_hz));
+};
+
+template <>
 struct Table<Glasses> {
   using EyesCodec =
       PerEyeCodec<Glasses, LensResponse, &Glasses::lens_response, &Glasses::lens_response_unknown, LensResponseCodec>;
@@ -40,7 +49,8 @@ struct Table<Glasses> {
                       field("lens_aperture_mm", at(&Glasses::lens_aperture_mm), Presence::always, length_mm),
                       field("shutter_close_ms", at(&Glasses::shutter_close_ms), Presence::always, duration_ms),
                       field("shutter_open_ms", at(&Glasses::shutter_open_ms), Presence::always, duration_ms),
-                      field<EyesCodec>("lens_response", at(), Presence::optional, {.most = 1001}));
+                      field<EyesCodec>("lens_response", at(), Presence::optional, {.most = 1001}),
+                      field("lens_limits", at(&Glasses::lens_limits), Presence::optional));
 
   static bool check(Reading& reading, const Glasses& glasses);
 };

@@ -53,6 +53,16 @@ struct LensHarmonic {
 /// Empty: 40 D/A at every harmonic, no lag.
 using LensResponse = std::vector<LensHarmonic>;
 
+/// What a drive may ask of a lens. The defaults are those of an EL-16-40-TC on Optotune's Lens Driver 4: 0.29 A is what
+/// the driver can put out, 0.25 A the nominal control current, which the coil bears as heat for as long as one likes.
+struct LensLimits {
+  double max_current_a = 0.29;             ///< either way
+  double max_rms_current_a = 0.25;         ///< root mean square over a period: heat
+  std::optional<double> max_frequency_hz;  ///< of the highest harmonic; without: as far as the response was measured
+  Unknown unknown{};
+  bool operator==(const LensLimits&) const = default;
+};
+
 struct Glasses {
   double lens_to_pupil_mm = 15.0;
   std::array<double, 2> lens_range_d{-10.0, 10.0};
@@ -61,6 +71,7 @@ struct Glasses {
   double shutter_open_ms = 3.0;
   PerEye<LensResponse> lens_response;
   Unknown lens_response_unknown{};  ///< beside "left" and "right"
+  std::optional<LensLimits> lens_limits;
   Unknown unknown{};
   bool operator==(const Glasses&) const = default;
 };

@@ -1,11 +1,13 @@
 #include "devices/runtime/sim_description.h"
 
+#include "core/schedule/sweep_shape.h"
+
 namespace focalstage {
 
 namespace {
 
-// Beyond the eighth a sweep that a lens can follow has nothing left.
-constexpr int harmonics = 8;
+// As far as a shaped sweep goes (core/schedule/sweep_shape.h).
+constexpr int harmonics = most_shaped_harmonics;
 
 LensResponse response_of(const SimLensSettings& lens, double frequency_hz) {
   LensResponse response;

@@ -23,6 +23,7 @@ void SlotLedger::begin_show(const std::shared_ptr<const LoadedShow>& show) {
     report.image = slot.image;
     report.eye = static_cast<int>(index_of(slot.eye));
     report.asked_power_d = report.delivered_power_d = slot.power_d;
+    report.asked_smear_d = slot.smear_d;
     report.asked_s = report.delivered_s = slot.start_s;
     slots_.push_back(report);
   }
@@ -64,6 +65,7 @@ bool SlotLedger::settle(const AskedSweep& sweep, std::size_t slot) {
     if (std::abs(value - wanted) > std::abs(worst - wanted)) worst = value;
   };
   keep_worst(report.delivered_power_d, power_d, asked.power_d);
+  report.delivered_smear_d = std::max(report.delivered_smear_d, light->smear_d[asked.eye]);
   keep_worst(report.delivered_s, at_s, asked.start_s);
   report.right_image = right && (first || report.right_image);
   report.own_shutter_open = open && (first || report.own_shutter_open);

@@ -1,6 +1,7 @@
 #include "devices/sim/sim_rig.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace focalstage {
@@ -8,6 +9,8 @@ namespace focalstage {
 namespace {
 // How far back a question about lens or shutter may reach: the longest exposure and lag, with room.
 constexpr double remembered_s = 0.25;
+// How many instants of an exposure are looked at for the highest and lowest power: 31 us apart at 0.5 ms.
+constexpr int looks = 16;
 }  // namespace
 
 SimRig::SimRig(const SimSettings& settings, const SimFaults& faults)
@@ -96,12 +99,24 @@ void SimRig::end_exposures(double time_s) {
     light.duration_s = started.duration_s;
     for (const Side eye : both_sides) {
       light.power_d[eye] = lens_[eye].power_d(started.start_s + 0.5 * started.duration_s);
+      light.smear_d[eye] = smear_d(eye, started.start_s, started.start_s + started.duration_s);
       light.transmission[eye] = shutter_[eye].during(started.start_s, started.start_s + started.duration_s);
     }
     light.picture = started.picture;
     delivered_.push_back(std::move(light));
   }
   std::erase_if(running_, ended);
+}
+
+double SimRig::smear_d(Side eye, double from_s, double to_s) {
+  double lowest_d = lens_[eye].power_d(from_s);
+  double highest_d = lowest_d;
+  for (int i = 1; i <= looks; ++i) {
+    const double power_d = lens_[eye].power_d(std::lerp(from_s, to_s, static_cast<double>(i) / looks));
+    lowest_d = std::min(lowest_d, power_d);
+    highest_d = std::max(highest_d, power_d);
+  }
+  return highest_d - lowest_d;
 }
 
 std::vector<DeliveredExposure> SimRig::take_delivered() { return std::exchange(delivered_, {}); }

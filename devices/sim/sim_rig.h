@@ -36,6 +36,7 @@ struct DeliveredExposure {
   double start_s = 0.0;
   double duration_s = 0.0;
   PerEye<double> power_d;             ///< at mid-exposure, through the drive really played
+  PerEye<double> smear_d;             ///< the power's highest less its lowest during the exposure
   PerEye<Transmission> transmission;  ///< over the exposure
 };
 
@@ -83,6 +84,7 @@ class SimRig : public RigPort {
   void happen(double time_s, TriggerEvent& trigger);
   void happen(double time_s, ShutterEvent& shutter);
   void end_exposures(double time_s);
+  double smear_d(Side eye, double from_s, double to_s);
 
   PerEye<SimLens> lens_;
   PerEye<SimShutter> shutter_;

@@ -15,6 +15,7 @@ Command::Run declare_rig(CLI::App& app);
 Command::Run declare_import(CLI::App& app);
 Command::Run declare_apply(CLI::App& app);
 Command::Run declare_solve(CLI::App& app);
+Command::Run declare_shape(CLI::App& app);
 Command::Run declare_adopt_rig(CLI::App& app);
 Command::Run declare_trials(CLI::App& app);
 Command::Run declare_runtime(CLI::App& app);

@@ -23,6 +23,8 @@ Value value_of(const SlotReport& slot) {
   value.set("eye", eye_name(slot.eye));
   value.set("asked_power_d", slot.asked_power_d);
   value.set("delivered_power_d", slot.delivered_power_d);
+  value.set("asked_smear_d", slot.asked_smear_d);
+  value.set("delivered_smear_d", slot.delivered_smear_d);
   value.set("asked_s", slot.asked_s);
   value.set("delivered_s", slot.delivered_s);
   value.set("right_image", slot.right_image);

@@ -46,11 +46,11 @@ struct CheckReport {
 };
 
 /// The findings of a project without writing anything: every frame is compiled and measured, some are looked at.
-Result<CheckReport> check_project(const Source& source, const EngineChoice& engine,
-                                           const FrameProgress& progress, std::stop_token stop);
+Result<CheckReport> check_project(const Source& source, const EngineChoice& engine, const FrameProgress& progress,
+                                  std::stop_token stop);
 
 /// The findings of a show: what compiling measured stands in it, the rest is measured again.
 Result<CheckReport> check_show(const Source& source, const ShowReader& show, const FrameProgress& progress,
-                                        std::stop_token stop);
+                               std::stop_token stop);
 
 }  // namespace focalstage

@@ -17,6 +17,7 @@ void add_edit_commands(CommandList& list);
 void add_things_commands(CommandList& list);
 void add_place_commands(CommandList& list);
 void add_time_commands(CommandList& list);
+void add_sweep_commands(CommandList& list);
 void add_view_commands(CommandList& list);
 void add_eye_commands(CommandList& list);
 void add_rig_commands(CommandList& list);

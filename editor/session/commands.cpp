@@ -22,6 +22,7 @@ std::span<const Command> commands() {
     add_things_commands(made);
     add_place_commands(made);
     add_time_commands(made);
+    add_sweep_commands(made);
     add_view_commands(made);
     add_eye_commands(made);
     add_rig_commands(made);

@@ -128,6 +128,17 @@ void add_response_rows(PropertyRows& rows) {
   rows.shown("harmonics", per_eye_text(lenses.left.size(), lenses.right.size()));
 }
 
+void add_limit_rows(PropertyRows& rows) {
+  rows.group("Limits of the lens drive");
+  rows.number<LensLimits>("current", "lens_limits/max_current_a", {"A", 3, 0.001}).help =
+      "The largest current either way; 0.29 A is all that a Lens Driver 4 puts out.";
+  rows.number<LensLimits>("current for long", "lens_limits/max_rms_current_a", {"A", 3, 0.001}).help =
+      "Root mean square over a period, which heats the coil.";
+  Property& highest = rows.number<LensLimits>("highest frequency", "lens_limits/max_frequency_hz", {"Hz", 0, 10.0});
+  highest.fresh = Value(1000.0);
+  highest.help = "Of a shaped sweep. Without, it ends where the lens response does.";
+}
+
 std::string waveform_text(const Waveform& waveform) {
   return waveform ? "measured, " + grouped_text(waveform->power_d.size()) + " samples" : "sine";
 }
@@ -139,11 +150,12 @@ void add_waveform_rows(PropertyRows& rows) {
   if (measured) choices.push_back({Value("measured"), "measured"});
   Property& row = rows.choice("waveform", "waveform", std::move(choices));
   row.value = Value(measured ? "measured" : "sine");
-  row.help = "A sine, or what was measured on the rig.";
+  row.help = "A sine, or a period of samples: measured on the rig, or shaped to dwell at the slices.";
   row.edits = [](const PropertyScope&, const Thing& thing, const Property&, const Value& value) -> std::vector<Edit> {
     if (value != Value("sine")) return {};
     return {set_edit(thing, "waveform", value)};
   };
+  rows.action("Shape the sweep", "sweep.shape");
   if (!measured) return;
   rows.shown("left", waveform_text(waves.left));
   rows.shown("right", waveform_text(waves.right));
@@ -172,6 +184,7 @@ void add_glasses_rows(PropertyRows& rows) {
   rows.number<Glasses>("closes in", "shutter_close_ms", {"ms", 2, 0.01});
   rows.number<Glasses>("opens in", "shutter_open_ms", {"ms", 2, 0.01});
   add_response_rows(rows);
+  add_limit_rows(rows);
 }
 
 void add_sweep_rows(PropertyRows& rows) {

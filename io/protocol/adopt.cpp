@@ -46,6 +46,14 @@ void adopt_glasses(const Glasses& now, const Glasses& rig, std::vector<Edit>& ed
   }
 }
 
+/// A rig that lets less current through than the project allows has the last word; one that lets more does not raise
+/// what somebody wrote down for their lenses.
+void adopt_current(const Glasses& now, const RigDescription& rig, std::vector<Edit>& edits) {
+  const double allowed_a = now.lens_limits.value_or(LensLimits{}).max_current_a;
+  if (!(rig.lens_current_max_a > 0.0) || rig.lens_current_max_a >= allowed_a) return;
+  edits.push_back(set("glasses", "", "lens_limits/max_current_a", rig.lens_current_max_a));
+}
+
 void adopt_projector(const Projector& now, const Projector& rig, std::vector<Edit>& edits) {
   const auto set_number = [&](const char* key, double mine, double theirs) {
     if (mine != theirs) edits.push_back(set("projectors", now.name, key, theirs));
@@ -62,6 +70,7 @@ void adopt_projector(const Projector& now, const Projector& rig, std::vector<Edi
 std::vector<Edit> adopt(const Project& project, const RigDescription& rig) {
   std::vector<Edit> edits;
   adopt_glasses(project.glasses, rig.glasses, edits);
+  adopt_current(project.glasses, rig, edits);
   for (std::size_t i = 0; i < project.projectors.size(); ++i) {
     const Projector& now = project.projectors[i];
     const auto named = std::find_if(rig.projectors.begin(), rig.projectors.end(),

@@ -91,6 +91,8 @@ v1::SlotReport message_from(const SlotReport& slot) {
   message.set_eye(slot.eye);
   message.set_asked_power_d(slot.asked_power_d);
   message.set_delivered_power_d(slot.delivered_power_d);
+  message.set_asked_smear_d(slot.asked_smear_d);
+  message.set_delivered_smear_d(slot.delivered_smear_d);
   message.set_asked_s(slot.asked_s);
   message.set_delivered_s(slot.delivered_s);
   message.set_right_image(slot.right_image);
@@ -109,6 +111,8 @@ SlotReport slot_from(const v1::SlotReport& message) {
   slot.eye = message.eye();
   slot.asked_power_d = message.asked_power_d();
   slot.delivered_power_d = message.delivered_power_d();
+  slot.asked_smear_d = message.asked_smear_d();
+  slot.delivered_smear_d = message.delivered_smear_d();
   slot.asked_s = message.asked_s();
   slot.delivered_s = message.delivered_s();
   slot.right_image = message.right_image();

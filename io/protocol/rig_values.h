@@ -36,6 +36,8 @@ struct SlotReport {
   bool delivered = false;  ///< all of it within 0.02 D and 20 us
   std::uint64_t exposures = 0;
   std::uint64_t missed = 0;
+  double asked_smear_d = 0.0;  ///< how much the power changes over the exposure
+  double delivered_smear_d = 0.0;
 
   bool operator==(const SlotReport&) const = default;
 };

@@ -95,6 +95,7 @@ TEST_CASE("schedule.smear") { check_code("schedule.smear", Severity::warning, tr
 TEST_CASE("schedule.bit-depth") { check_code("schedule.bit-depth", Severity::error, true); }
 TEST_CASE("schedule.no-zero-crossing") { check_code("schedule.no-zero-crossing", Severity::error, true); }
 TEST_CASE("optics.lens-range") { check_code("optics.lens-range", Severity::error, true); }
+TEST_CASE("optics.lens-current") { check_code("optics.lens-current", Severity::error, true); }
 TEST_CASE("depth.out-of-range") { check_code("depth.out-of-range", Severity::error, true); }
 TEST_CASE("frames.rate") { check_code("frames.rate", Severity::error, true); }
 TEST_CASE("safety.flicker") { check_code("safety.flicker", Severity::warning, true); }
@@ -126,7 +127,7 @@ TEST_CASE("every project here belongs to a test, and every code of the design to
       "schedule.smear",     "schedule.bit-depth",   "schedule.no-zero-crossing",  "optics.lens-range",
       "depth.out-of-range", "frames.rate",          "view.outside-projector",     "view.off-surface",
       "view.outside-lens",  "light.clipped",        "projector.defocus",          "safety.flicker",
-      "rig.differs"};
+      "rig.differs",        "optics.lens-current"};
   std::set<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.is_directory()) found.insert(entry.path().filename().string());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "editor/session/session.h"
@@ -12,13 +13,10 @@
 #include "editor/window/base/im.h"
 #include "editor/window/base/widgets.h"
 #include "editor/window/views/pane_text.h"
+#include "editor/window/views/sweep_curves.h"
 
 namespace focalstage {
 namespace {
-
-constexpr std::uint32_t left_colour = theme::colour(0xF2A65A);
-constexpr std::uint32_t right_colour = theme::colour(0x7BC47F);
-constexpr std::uint32_t power_colour = theme::colour(0x6FB1FF);
 
 std::uint32_t packed(const glm::dvec3& rgb) {
   const auto code = [](double v) { return static_cast<std::uint32_t>(std::lround(255.0 * std::clamp(v, 0.0, 1.0))); };
@@ -35,38 +33,12 @@ double step_of(double span, double most) {
   return step;
 }
 
-/// Lens power at a time of the period, from the samples that the rig gets.
-double sample_at(const std::vector<double>& samples, double share) {
-  if (samples.empty()) return 0.0;
-  const double at = share * static_cast<double>(samples.size());
-  const auto from = static_cast<std::size_t>(at) % samples.size();
-  const double part = at - std::floor(at);
-  return samples[from] * (1.0 - part) + samples[(from + 1) % samples.size()] * part;
-}
-
 bool is_open(const ShutterTimes& times, double time_s) {
   if (times.open_s <= times.close_s) return time_s >= times.open_s && time_s < times.close_s;
   return time_s >= times.open_s || time_s < times.close_s;
 }
 
 }  // namespace
-
-/// Where a time and a power lie in the pane.
-struct TimePane::Axes {
-  PaneRect plot;
-  float lanes_px = 0.0f;  ///< below the plot: one lane per shutter
-  double period_s = 1.0 / 60.0;
-  double low_d = -1.0;
-  double high_d = 1.0;
-  const Schedule* schedule = nullptr;
-
-  float x(double time_s) const { return plot.min.x + plot.size.x * static_cast<float>(time_s / period_s); }
-  float y(double power_d) const {
-    return plot.min.y + plot.size.y * static_cast<float>((high_d - power_d) / (high_d - low_d));
-  }
-  double time_s(float at_x) const { return period_s * (at_x - plot.min.x) / plot.size.x; }
-  double power_d(float at_y) const { return high_d - (high_d - low_d) * (at_y - plot.min.y) / plot.size.y; }
-};
 
 void TimePane::draw(Session& session, const PaneRect& rect) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -76,7 +48,7 @@ void TimePane::draw(Session& session, const PaneRect& rect) {
     draw_hint(rect, "The sweep appears once there are slices and a projector.");
     return;
   }
-  Axes axes;
+  SweepAxes axes;
   axes.schedule = &checked->schedule.schedule;
   axes.period_s = axes.schedule->period_s;
   const Sweep& sweep = session.project().sweep;
@@ -104,14 +76,15 @@ void TimePane::draw(Session& session, const PaneRect& rect) {
   draw_axes(axes);
   draw_shutters(axes);
   draw_slots(axes);
-  if (offer && offer->solved()) draw_offer(*offer, axes);
+  draw_powers(axes, sweep);
+  if (offer && offer->solved()) draw_offer(axes, *offer);
   scrub(session, axes);
   drag_slices(session, axes);
   draw_reading(axes);
   draw_solve(session, rect);
 }
 
-void TimePane::draw_axes(const Axes& axes) const {
+void TimePane::draw_axes(const SweepAxes& axes) const {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const glm::vec2 min = axes.plot.min, max = axes.plot.min + axes.plot.size;
   const double span_d = axes.high_d - axes.low_d;
@@ -134,7 +107,7 @@ void TimePane::draw_axes(const Axes& axes) const {
 }
 
 /// A lane for each shutter below the plot, and the dead windows over both.
-void TimePane::draw_shutters(const Axes& axes) const {
+void TimePane::draw_shutters(const SweepAxes& axes) const {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float top = axes.plot.min.y + axes.plot.size.y + px(8), lane = px(13);
   const std::array<const char*, 2> names{"left", "right"};
@@ -156,7 +129,7 @@ void TimePane::draw_shutters(const Axes& axes) const {
   }
 }
 
-void TimePane::draw_slots(const Axes& axes) const {
+void TimePane::draw_slots(const SweepAxes& axes) const {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float bottom = axes.plot.min.y + axes.plot.size.y;
   for (const Slot& slot : axes.schedule->slots) {
@@ -170,43 +143,10 @@ void TimePane::draw_slots(const Axes& axes) const {
     list.AddTriangleFilled({trigger - px(3), bottom + px(6)}, {trigger + px(3), bottom + px(6)}, {trigger, bottom},
                            theme::text);
   }
-  draw_curves(axes, *axes.schedule, power_colour, px(2));
-}
-
-/// The lenses' power over the period.
-void TimePane::draw_curves(const Axes& axes, const Schedule& schedule, std::uint32_t colour, float width) const {
-  constexpr int points = 240;
-  for (const Side side : both_sides) {
-    const auto& samples = schedule.lens_power_d[side];
-    if (side == Side::right && samples == schedule.lens_power_d[Side::left]) continue;
-    std::vector<ImVec2> line;
-    for (int i = 0; i <= points; ++i) {
-      const double share = i / static_cast<double>(points);
-      line.push_back({axes.x(share * axes.period_s), axes.y(sample_at(samples, share))});
-    }
-    ImGui::GetWindowDrawList()->AddPolyline(line.data(), static_cast<int>(line.size()), colour, 0, width);
-  }
-}
-
-/// The sweep and the slices as the solver proposes them: a thin curve, a ring at each exposure, dashes across.
-void TimePane::draw_offer(const SolveOffer& offer, const Axes& axes) const {
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  draw_curves(axes, offer.schedule, theme::with_alpha(theme::green, 0.9), px(1.5f));
-  for (const Slot& slot : offer.schedule.slots) {
-    list.AddCircle({axes.x(slot.start_s + 0.5 * slot.exposure_s), axes.y(slot.power_d)}, px(4), theme::green, 16,
-                   px(1.5f));
-  }
-  const float end = axes.plot.min.x + axes.plot.size.x;
-  for (const double power_d : offer.report.result.rig->powers_d) {
-    const float y = axes.y(power_d);
-    for (float x = axes.plot.min.x; x < end; x += px(10)) {
-      list.AddLine({x, y}, {std::min(x + px(4), end), y}, theme::with_alpha(theme::green, 0.7));
-    }
-  }
 }
 
 /// Each slice's power as a line across with a handle at its right end.
-void TimePane::drag_slices(Session& session, const Axes& axes) {
+void TimePane::drag_slices(Session& session, const SweepAxes& axes) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const std::vector<double> powers_d = session.project().slices.powers_d;
   const float end = axes.plot.min.x + axes.plot.size.x;
@@ -253,7 +193,7 @@ void TimePane::draw_solve(Session& session, const PaneRect& rect) const {
 }
 
 /// A press in the plot chooses the moment that all views follow; a double-click lets go of it.
-void TimePane::scrub(Session& session, const Axes& axes) {
+void TimePane::scrub(Session& session, const SweepAxes& axes) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   ImGui::SetCursorScreenPos(to_im(axes.plot.min));
   ImGui::InvisibleButton("plot", {axes.plot.size.x, axes.plot.size.y + axes.lanes_px});
@@ -284,7 +224,7 @@ void TimePane::scrub(Session& session, const Axes& axes) {
   }
 }
 
-void TimePane::draw_reading(const Axes& axes) const {
+void TimePane::draw_reading(const SweepAxes& axes) const {
   const glm::vec2 at = from_im(ImGui::GetIO().MousePos);
   const glm::vec2 max = axes.plot.min + axes.plot.size + glm::vec2(0.0f, axes.lanes_px);
   const bool inside = at.x >= axes.plot.min.x && at.y >= axes.plot.min.y && at.x <= max.x && at.y <= max.y;

@@ -4,6 +4,7 @@
 
 #include "core/schedule/schedule.h"
 #include "editor/window/base/pane.h"
+#include "editor/window/views/sweep_curves.h"
 
 namespace focalstage {
 
@@ -21,16 +22,13 @@ class TimePane : public Pane {
   void finalize() override {}
 
  private:
-  struct Axes;
-  void draw_axes(const Axes& axes) const;
-  void draw_shutters(const Axes& axes) const;
-  void draw_slots(const Axes& axes) const;
-  void draw_curves(const Axes& axes, const Schedule& schedule, std::uint32_t colour, float width) const;
-  void draw_offer(const SolveOffer& offer, const Axes& axes) const;
-  void drag_slices(Session& session, const Axes& axes);
+  void draw_axes(const SweepAxes& axes) const;
+  void draw_shutters(const SweepAxes& axes) const;
+  void draw_slots(const SweepAxes& axes) const;
+  void drag_slices(Session& session, const SweepAxes& axes);
   void draw_solve(Session& session, const PaneRect& rect) const;
-  void scrub(Session& session, const Axes& axes);
-  void draw_reading(const Axes& axes) const;
+  void scrub(Session& session, const SweepAxes& axes);
+  void draw_reading(const SweepAxes& axes) const;
 
   std::optional<std::size_t> held_slice_;
 };

@@ -213,6 +213,51 @@ TEST_CASE("a measured sweep beyond the lens is one finding, whatever the sine it
   CHECK(findings[0].remedy.empty());
 }
 
+TEST_CASE("a drive beyond what a lens bears") {
+  // +-1.5 D about 0 at 40 D/A: 37.5 mA at the peak, 37.5 / sqrt 2 = 26.5 mA in the root mean square.
+  Project project = quiet_project();
+  LensLimits& limits = project.glasses.lens_limits.emplace();
+  limits.max_current_a = 0.0375;
+  limits.max_rms_current_a = 0.0266;
+  CHECK(codes(check_of(project)) == Codes{});
+  limits.max_current_a = 0.036;
+  const std::vector<Finding> peak = check_of(project);
+  REQUIRE(codes(peak) == Codes{"optics.lens-current"});
+  CHECK(peak[0].severity == Severity::error);
+  CHECK(peak[0].where == "/sweep/waveform");
+  CHECK(peak[0].amount->value == doctest::Approx(0.0375).epsilon(1e-6));
+  CHECK(peak[0].amount->limit == 0.036);
+  // Narrowed to what 36 mA make, 1.44 D, on a grid of 0.05 D.
+  REQUIRE(peak[0].remedy.size() == 2);
+  const Project narrowed = *apply_all(project, peak[0].remedy);
+  CHECK(narrowed.sweep.max_power_d == doctest::Approx(1.4));
+  CHECK(codes(check_of(narrowed)) == Codes{});
+
+  limits.max_current_a = 0.29;
+  limits.max_rms_current_a = 0.02;
+  const std::vector<Finding> hot = check_of(project);
+  REQUIRE(codes(hot) == Codes{"optics.lens-current"});
+  CHECK(hot[0].amount->value == doctest::Approx(0.0375 / std::sqrt(2.0)).epsilon(1e-6));
+  CHECK(hot[0].message.find("root mean square") != std::string::npos);
+}
+
+TEST_CASE("a measured drive that a lens does not bear gives way to the sine") {
+  Project project = quiet_project();
+  MeasuredWaveform waveform;
+  for (int i = 0; i < 64; ++i) {
+    waveform.power_d.push_back(-1.5 * std::cos(2.0 * 3.14159265358979 * i / 64.0));
+    waveform.drive_a.push_back(i == 5 ? 0.3 : 0.0);
+  }
+  project.sweep.waveform.right = waveform;
+  const std::vector<Finding> findings = check_of(project);
+  REQUIRE(codes(findings) == Codes{"optics.lens-current"});
+  CHECK(findings[0].where == "/sweep/waveform/right");
+  CHECK(findings[0].amount->value == doctest::Approx(0.3));
+  CHECK(findings[0].amount->limit == 0.29);
+  REQUIRE(findings[0].remedy.size() == 1);
+  CHECK(codes(check_of(*apply_all(project, findings[0].remedy))) == Codes{});
+}
+
 TEST_CASE("a frame plays for a whole number of sweeps") {
   Project project = quiet_project();
   for (const double rate_hz : {60.0, 30.0, 20.0, 12.0, 7.5, 60.0 / 7.0, 0.1}) {

@@ -77,7 +77,7 @@ TEST_CASE("describe says what the simulated rig is, over the wire as in the prog
   REQUIRE(rig);
   CHECK(*rig == describe_sim(sample::sim(), {}, 60.0));
   CHECK(rig->kind == "sim");
-  CHECK(rig->glasses.lens_response.left.size() == 9);
+  CHECK(rig->glasses.lens_response.left.size() == 25);
   CHECK(rig->glasses.lens_response.left[1].gain_d_per_a == doctest::Approx(37.063664).epsilon(1e-7));
   CHECK(client.describe(50.0)->frequency_hz == 50.0);
   CHECK(client.describe(50.0)->glasses.lens_response.left[1].gain_d_per_a > 37.07);

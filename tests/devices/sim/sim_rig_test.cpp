@@ -51,6 +51,25 @@ TEST_CASE("an exposure is remembered with the power of both lenses and what both
   CHECK(rig.take_delivered().empty());
 }
 
+TEST_CASE("an exposure is remembered with how far the power moved during it") {
+  SimRig rig(plain_settings());
+  hand_over(rig, 1.0, 7);
+  // From 0 to 0.1 A and back: once the lag is over the power moves at 40 D/A x 0.1 A / 8 ms, over 0.5 ms by 0.25 D.
+  const std::vector<double> triangle{0.0, 0.05, 0.1, 0.05};
+  for (const Side eye : both_sides) rig.set_drive(eye, triangle, period_s / 4);
+  rig.sync_edge(1.016);
+  for (const double trigger_s : {1.0206, 1.0241}) rig.trigger(trigger_s);  // rising; over the turn, 0.7 ms late
+  rig.run_until(1.04);
+  const auto light = rig.take_delivered();
+  REQUIRE(light.size() == 4);
+  CHECK(light[0].smear_d.left < 1e-4);  // ten lags after it began: 2 D / e^10
+  CHECK(light[2].smear_d.left == doctest::Approx(0.25).epsilon(1e-3));
+  CHECK(light[2].smear_d.right == doctest::Approx(0.125).epsilon(1e-3));
+  // Over a turn the ends alone would hide what lies between them.
+  CHECK(light[3].smear_d.left > 0.02);
+  CHECK(light[3].smear_d.left < 0.2);
+}
+
 TEST_CASE("dark cuts the light that is on, and nothing handed over for later happens") {
   SimRig rig(plain_settings());
   hand_over(rig, 1.0, 7);

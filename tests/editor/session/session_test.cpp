@@ -235,6 +235,40 @@ TEST_CASE("things are aligned, put at one distance and dropped, each as one step
   CHECK(session.view().camera.distance_m < before);
 }
 
+TEST_CASE("shaping the sweep is one step, found behind the window, and undone") {
+  const Home home;
+  Session session([] {});
+  open_sample(session, "step-teapot");
+  const Project before = session.project();
+  REQUIRE(session.run("sweep.shape").ok());
+  CHECK(session.project() == before);  // not yet: nothing blocks the window
+  REQUIRE(wait(session, [&] { return session.project().sweep.waveform.left.has_value(); }));
+  CHECK(session.project().sweep.waveform.right.has_value());
+  REQUIRE(wait_compiled(session));
+  double worst_d = 0.0;
+  for (const Slot& slot : session.checked()->schedule.schedule.slots) worst_d = std::max(worst_d, slot.smear_d);
+  CHECK(worst_d < 0.2);  // the sine's: 0.278 D; the sample lists two harmonics
+  REQUIRE(session.notice());
+  CHECK(session.notice()->text.find("on the sine by 0.278 D") != std::string::npos);
+  REQUIRE(session.run("edit.undo").ok());
+  CHECK(session.project() == before);
+
+  CHECK_FALSE(session.run("sweep.shape", args({{"max_harmonic", 0.0}})).ok());
+  CHECK_FALSE(session.run("sweep.shape", args({{"max_harmonic", "all"}})).ok());
+}
+
+TEST_CASE("a sweep that was shaped for another project than the present one is not taken") {
+  const Home home;
+  Session session([] {});
+  open_sample(session, "step-teapot");
+  REQUIRE(session.run("sweep.shape").ok());
+  REQUIRE(session.edit("Another slice", {{Edit::Kind::set, "slices", "", "powers_d", Value(Value::Array{-0.5, 0.25})}})
+              .ok());
+  REQUIRE(wait(session, [&] { return session.tasks().empty(); }));
+  session.update(now_s());
+  CHECK_FALSE(session.project().sweep.waveform.left);
+}
+
 TEST_CASE("closing with unsaved edits asks, and saving an untitled project asks for its place") {
   const Home home;
   Session session([] {});

@@ -50,6 +50,21 @@ TEST_CASE("a faster rig does not change the rate, a slower one does") {
   CHECK(apply_all(before, adopt(before, rig))->projectors.front().frames_per_second == 1440.0);
 }
 
+TEST_CASE("a rig's current limit is taken where it is the lower") {
+  Project before = project_with_a_projector();
+  RigDescription rig = rig_with_a_lag();
+  rig.lens_current_max_a = 0.2;
+  const auto lower = apply_all(before, adopt(before, rig));
+  REQUIRE(lower.ok());
+  REQUIRE(lower->glasses.lens_limits);
+  CHECK(lower->glasses.lens_limits->max_current_a == 0.2);
+  CHECK(lower->glasses.lens_limits->max_rms_current_a == 0.25);
+  CHECK(adopt(*lower, rig).empty());
+  rig.lens_current_max_a = 0.4;
+  CHECK(apply_all(*lower, adopt(*lower, rig))->glasses.lens_limits->max_current_a == 0.2);
+  CHECK_FALSE(apply_all(before, adopt(before, rig))->glasses.lens_limits);
+}
+
 TEST_CASE("a projector of another name is adopted by its place") {
   Project before = project_with_a_projector();
   before.projectors.front().name = "upstairs";
