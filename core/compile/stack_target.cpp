@@ -37,8 +37,8 @@ void move(const ViewTriangle& from, const Plane& a, const glm::dvec2& pupil_m, V
 
 /// Bounds of the moved triangle: its looks shift by at most the pupil's height times its wanted vergences.
 ViewBounds moved_bounds(const ViewBounds& from, double low_d, double high_d, const glm::dvec2& pupil_m) {
-  const auto [left, right] = std::minmax(-pupil_m.x * low_d, -pupil_m.x * high_d);
-  const auto [down, up] = std::minmax(-pupil_m.y * low_d, -pupil_m.y * high_d);
+  const auto [left, right] = std::minmax({-pupil_m.x * low_d, -pupil_m.x * high_d});
+  const auto [down, up] = std::minmax({-pupil_m.y * low_d, -pupil_m.y * high_d});
   constexpr double slack = 1e-6;
   ViewBounds to = from;
   to.box.min_x += static_cast<float>(left - slack);
@@ -119,7 +119,7 @@ std::vector<StackTarget::Candidate> StackTarget::candidates(const StackTile& til
     const double middle = 0.5 * (static_cast<double>(bounds.min_inverse_m) + bounds.max_inverse_m);
     WantedVergence wanted = wanted_vergence(all_.rules[triangle.drawable], slices_, looks.surface_mean_m, middle,
                                             all_.lens_to_pupil_m);
-    const auto [least, most] = std::minmax(wanted.at(bounds.min_inverse_m), wanted.at(bounds.max_inverse_m));
+    const auto [least, most] = std::minmax({wanted.at(bounds.min_inverse_m), wanted.at(bounds.max_inverse_m)});
     const bool beyond = most <= low_d || least >= high_d;
     if (beyond) wanted = {0.0, most <= low_d ? low_d : high_d};
     out.push_back({index, wanted.per_inverse_m * triangle.a[3], wanted.per_inverse_m * triangle.b[3],
