@@ -108,7 +108,7 @@ OptimalChange optimal_change(const FrameRun& run, Side side, const PixelLooks& l
   for (std::size_t c = 0; c < static_cast<std::size_t>(run.slice.channels) && !stop.stop_requested(); ++c) {
     StackProblem problem{fields.shown[c], fields.most, std::move(fields.target[c])};
     for (float& light : problem.linear) light = std::min(light, 1.0f);
-    StackSolution solution = solve_stack(out.plan, problem, stop);
+    StackSolution solution = solve_stack(out.plan, problem, *run.slice.kernel, stop);
     add_excess(fields.shown[c], solution.change);
     out.change[c] = std::move(solution.change);
     out.measure.accepted_tiles = std::max<std::uint64_t>(out.measure.accepted_tiles, solution.accepted_tiles);

@@ -6,11 +6,6 @@
 namespace focalstage {
 namespace {
 
-// One instruction set and one order of sums: the result is the same on every machine.
-using Four = float __attribute__((vector_size(16), aligned(4)));
-
-Four load(const float* from) { return *reinterpret_cast<const Four*>(from); }
-
 /// A rectangle of pixels, from a tile's first.
 struct Window {
   int left = 0;
@@ -31,7 +26,7 @@ struct Window {
 
 int floor_div(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
-/// Copies one layer of a window; what is outside the plan is 0. False where all of it is.
+/// Copies one layer of a window; what is outside the plan is 0. False where all of it is 0.
 bool copy_window(const StackPlan& plan, const StackField& field, std::size_t layers, std::size_t layer,
                  const StackTile& tile, const Window& window, std::vector<float>& to) {
   to.assign(static_cast<std::size_t>(window.width()) * static_cast<std::size_t>(window.height()), 0.0f);
@@ -44,7 +39,6 @@ bool copy_window(const StackPlan& plan, const StackField& field, std::size_t lay
     for (int column = first_column; column <= last_column; ++column) {
       const std::int32_t slot = plan.slot_of[static_cast<std::size_t>(row * plan.grid.columns() + column)];
       if (slot < 0) continue;
-      any = true;
       const float* const from = &field[(static_cast<std::size_t>(slot) * layers + layer) * tile_samples];
       const int x0 = (column - tile.column) * tile_side;
       const int y0 = (row - tile.row) * tile_side;
@@ -52,36 +46,18 @@ bool copy_window(const StackPlan& plan, const StackField& field, std::size_t lay
       const int right = std::min(x0 + tile_side, window.right);
       for (int y = std::max(y0, window.top); y < std::min(y0 + tile_side, window.bottom); ++y) {
         float* const line = &to[static_cast<std::size_t>((y - window.top) * window.width() + left - window.left)];
-        std::memcpy(line, from + (y - y0) * tile_side + left - x0, sizeof(float) * static_cast<std::size_t>(right - left));
+        const float* const values = from + (y - y0) * tile_side + left - x0;
+        for (int x = 0; x < right - left; ++x) any |= values[x] != 0.0f;
+        std::memcpy(line, values, sizeof(float) * static_cast<std::size_t>(right - left));
       }
     }
   }
   return any;
 }
 
-/// Adds shares * values to 64 sums: sum(x, y) += share(i, j) * from[(y + dir j) * stride + x + dir i].
-void convolve(const float* from, int stride, int dir, const StackSpan& span, const float* shares, float sign,
-              float* sums) {
-  for (int y = 0; y < tile_side; ++y) {
-    Four low{};
-    Four high{};
-    const float* share = shares;
-    for (int j = 0; j < span.height; ++j) {
-      const float* const line = from + (y + dir * j) * stride;
-      for (int i = 0; i < span.width; ++i, ++share) {
-        low += *share * load(line + dir * i);
-        high += *share * load(line + dir * i + 4);
-      }
-    }
-    Four* const to = reinterpret_cast<Four*>(sums + y * tile_side);
-    to[0] += sign * low;
-    to[1] += sign * high;
-  }
-}
-
 }  // namespace
 
-void see_tile(const StackPlan& plan, const StackField& light, std::size_t slot, float sign, float* seen) {
+void see_tile(const Kernel& kernel, const StackPlan& plan, const StackField& light, std::size_t slot, float sign, float* seen) {
   const StackTile& tile = plan.tiles[slot];
   const std::size_t foci = plan.focus_count();
   thread_local std::vector<float> values;
@@ -95,12 +71,13 @@ void see_tile(const StackPlan& plan, const StackField& light, std::size_t slot, 
     for (std::size_t k = 0; k < foci; ++k) {
       const StackSpan& span = tile.spans[n * foci + k];
       const int first = (span.y - window.top) * window.width() + span.x - window.left;
-      convolve(values.data() + first, window.width(), 1, span, &tile.shares[span.first], sign, seen + k * tile_samples);
+      kernel.spread(values.data() + first, window.width(), 1, &tile.shares[span.first], span.width, span.height, sign,
+                    seen + k * tile_samples);
     }
   }
 }
 
-void trace_back_tile(const StackPlan& plan, const StackField& cells, std::size_t slot, float* light) {
+void trace_back_tile(const Kernel& kernel, const StackPlan& plan, const StackField& cells, std::size_t slot, float* light) {
   const StackTile& tile = plan.tiles[slot];
   const std::size_t foci = plan.focus_count();
   thread_local std::vector<float> values;
@@ -115,8 +92,8 @@ void trace_back_tile(const StackPlan& plan, const StackField& cells, std::size_t
     for (std::size_t n = 0; n < plan.slice_count(); ++n) {
       const StackSpan& span = tile.spans[n * foci + k];
       const int first = (-span.y - window.top) * window.width() - span.x - window.left;
-      convolve(values.data() + first, window.width(), -1, span, &tile.shares[span.first], 1.0f,
-               light + n * tile_samples);
+      kernel.spread(values.data() + first, window.width(), -1, &tile.shares[span.first], span.width, span.height, 1.0f,
+                    light + n * tile_samples);
     }
   }
 }

@@ -93,6 +93,7 @@ class Planner {
     for (std::size_t i = 0; i < near_.size(); ++i) near_[i] = near_[i] != 0 && torn[i] == 0 ? 1 : 0;
     const std::vector<std::size_t> asked = asked_tiles(edges, at_most);
     if (asked.empty()) return {};
+    seen_ = widened(near_, width, height, blur_px());
     add_tiles(asked);
     tbb::parallel_for(std::size_t{0}, plan_.tiles.size(), [&](std::size_t i) { set_up_tile(plan_.tiles[i], torn); });
     return std::move(plan_);
@@ -196,7 +197,7 @@ class Planner {
       const int y = tile.row * tile_side + i / tile_side;
       if (x >= grid.width_px || y >= grid.height_px || !(looks.x[i] == looks.x[i])) continue;
       const std::uint64_t bit = std::uint64_t{1} << i;
-      if (torn[place_of(grid, x, y)] == 0) tile.counted |= bit;
+      if (torn[place_of(grid, x, y)] == 0 && seen_[place_of(grid, x, y)] != 0) tile.counted |= bit;
       if (is_near(x, y)) tile.asked |= bit;
       for (std::size_t n = 0; n < plan_.slice_count(); ++n) {
         const glm::dvec2 shift = shift_px(looks, slices_[plan_.slices[n]], lens_to_pupil_m_);
@@ -271,12 +272,17 @@ class Planner {
   double lens_to_pupil_m_;
   StackPlan plan_;
   std::vector<std::uint8_t> near_;
+  std::vector<std::uint8_t> seen_;  ///< where what may change can be seen
   std::vector<std::uint8_t> is_asked_;
   double blur_px_ = 0.0;
   double shift_px_ = 0.0;
 };
 
 }  // namespace
+
+bool StackTile::any_free() const {
+  return std::any_of(free.begin(), free.end(), [](std::uint64_t bits) { return bits != 0; });
+}
 
 StackPlan stack_plan(const WantedDepth& wanted, const PixelLooks& looks, const std::vector<SliceSetup>& slices,
                      double lens_to_pupil_m, std::size_t at_most) {

@@ -33,6 +33,8 @@ struct StackTile {
   std::vector<double> focus_d;      ///< of the stack, at the pupil
   std::vector<StackSpan> spans;     ///< [slice][focus]
   std::vector<float> shares;
+
+  bool any_free() const;
 };
 
 struct StackPlan {

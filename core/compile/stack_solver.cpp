@@ -12,7 +12,7 @@ namespace focalstage {
 namespace {
 
 /// Multiplications that one eye and channel may cost, and rounds within them.
-constexpr double work_limit = 6e9;
+constexpr double work_limit = 2.5e10;
 constexpr int most_rounds = 40;
 constexpr int least_rounds = 6;
 
@@ -21,7 +21,10 @@ constexpr double pull = 0.002;
 
 int rounds_for(const StackPlan& plan) {
   double work = 0.0;
-  for (const StackTile& tile : plan.tiles) work += 2.0 * tile_samples * static_cast<double>(tile.shares.size());
+  for (const StackTile& tile : plan.tiles) {
+    const double once = tile_samples * static_cast<double>(tile.shares.size());
+    work += (tile.counted != 0 ? once : 0.0) + (tile.any_free() ? once : 0.0);
+  }
   return std::clamp(static_cast<int>(work_limit / std::max(work, 1.0)), least_rounds, most_rounds);
 }
 
@@ -29,9 +32,10 @@ bool has(std::uint64_t bits, int i) { return (bits >> i & 1) != 0; }
 
 class Solver {
  public:
-  Solver(const StackPlan& plan, const StackProblem& problem, std::stop_token stop)
+  Solver(const StackPlan& plan, const StackProblem& problem, const Kernel& kernel, std::stop_token stop)
       : plan_(plan),
         problem_(problem),
+        kernel_(kernel),
         stop_(std::move(stop)),
         tiles_(plan.tiles.size()),
         slices_(plan.slice_count()),
@@ -67,7 +71,7 @@ class Solver {
     StackField errors = problem_.target;
     each_tile([&](std::size_t slot) {
       float* const cells = &errors[slot * foci_ * tile_samples];
-      if (plan_.tiles[slot].asked != 0) see_tile(plan_, problem_.linear, slot, -1.0f, cells);
+      if (plan_.tiles[slot].asked != 0) see_tile(kernel_, plan_, problem_.linear, slot, -1.0f, cells);
       mask(plan_.tiles[slot].asked, cells);
     });
     return errors;
@@ -87,7 +91,8 @@ class Solver {
     each_tile([&](std::size_t slot) {
       float* const cells = &errors_[slot * foci_ * tile_samples];
       std::copy_n(&first_[slot * foci_ * tile_samples], foci_ * tile_samples, cells);
-      see_tile(plan_, change, slot, -1.0f, cells);
+      if (plan_.tiles[slot].counted == 0) return;
+      see_tile(kernel_, plan_, change, slot, -1.0f, cells);
       mask(plan_.tiles[slot].counted, cells);
     });
   }
@@ -97,10 +102,10 @@ class Solver {
     std::vector<double> uphill(tiles_, 0.0);
     each_tile([&](std::size_t slot) {
       const StackTile& tile = plan_.tiles[slot];
-      if (std::all_of(tile.free.begin(), tile.free.end(), [](std::uint64_t bits) { return bits == 0; })) return;
+      if (!tile.any_free()) return;
       thread_local std::vector<float> down;
       down.assign(slices_ * tile_samples, 0.0f);
-      trace_back_tile(plan_, errors_, slot, down.data());
+      trace_back_tile(kernel_, plan_, errors_, slot, down.data());
       for (std::size_t n = 0; n < slices_; ++n) {
         for (int i = 0; i < tile_samples; ++i) {
           if (!has(tile.free[n], i)) continue;
@@ -191,6 +196,7 @@ class Solver {
 
   const StackPlan& plan_;
   const StackProblem& problem_;
+  const Kernel& kernel_;
   std::stop_token stop_;
   std::size_t tiles_;
   std::size_t slices_;
@@ -204,8 +210,9 @@ class Solver {
 
 }  // namespace
 
-StackSolution solve_stack(const StackPlan& plan, const StackProblem& problem, std::stop_token stop) {
-  return Solver(plan, problem, std::move(stop)).run();
+StackSolution solve_stack(const StackPlan& plan, const StackProblem& problem, const Kernel& kernel,
+                          std::stop_token stop) {
+  return Solver(plan, problem, kernel, std::move(stop)).run();
 }
 
 }  // namespace focalstage

@@ -3,6 +3,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "core/compile/kernel.h"
 #include "core/compile/stack_plan.h"
 
 namespace focalstage {
@@ -32,6 +33,7 @@ struct StackSolution {
 /// Fits the stack by non-negative least squares with bounds: accelerated projected gradients (Beck and Teboulle 2009,
 /// with the restart of O'Donoghue and Candes 2015) from the linear images, for a number of rounds that depends on the
 /// amount of work alone. Islands of tiles whose error did not fall stay linear. Unfinished after a stop request.
-StackSolution solve_stack(const StackPlan& plan, const StackProblem& problem, std::stop_token stop);
+StackSolution solve_stack(const StackPlan& plan, const StackProblem& problem, const Kernel& kernel,
+                          std::stop_token stop);
 
 }  // namespace focalstage

@@ -48,6 +48,13 @@ ViewBounds moved_bounds(const ViewBounds& from, double low_d, double high_d, con
   return to;
 }
 
+Box moved(const Box& box, const glm::dvec2& by) {
+  constexpr float slack = 1e-6f;
+  const auto x = static_cast<float>(by.x);
+  const auto y = static_cast<float>(by.y);
+  return {box.min_x + x - slack, box.min_y + y - slack, box.max_x + x + slack, box.max_y + y + slack};
+}
+
 }  // namespace
 
 struct StackTarget::Seen {
@@ -168,6 +175,7 @@ void StackTarget::tile(std::size_t slot, std::vector<float>& out) const {
   const LocalLooks local = local_looks(x, y, kernel_);
   thread_local Seen seen;
   seen.candidates = &met;
+  seen.looks = local.looks;
   seen.wanted.resize(met.size());
   seen.triangles.resize(met.size());
   seen.bounds.resize(met.size());
@@ -178,13 +186,9 @@ void StackTarget::tile(std::size_t slot, std::vector<float>& out) const {
     seen.move_all(all_, sample.pupil * (plan_.pupil_m / 2.0));
     for (std::size_t k = 0; k < plan_.focus_count(); ++k) {
       const glm::dvec2 off = looks.look_per_pixel * sample.pixel - seen.pupil_m * tile.focus_d[k];
-      seen.looks = local.looks;
       seen.origin_x = local.origin_x + off.x;
       seen.origin_y = local.origin_y + off.y;
-      Box& all = seen.looks.all;
-      constexpr float slack = 1e-6f;
-      all = {all.min_x + static_cast<float>(off.x) - slack, all.min_y + static_cast<float>(off.y) - slack,
-             all.max_x + static_cast<float>(off.x) + slack, all.max_y + static_cast<float>(off.y) + slack};
+      seen.looks.all = moved(local.looks.all, off);
       add_ray(tile, k, seen, out);
     }
   }
