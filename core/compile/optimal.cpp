@@ -11,8 +11,25 @@
 namespace focalstage {
 namespace {
 
-/// Tiles near depth edges that one eye's frame may have solved: what bounds its time. A raster of 1024 x 768 has 12288.
-constexpr std::size_t most_tiles = 2500;
+/// What one eye's frame may cost, in tiles that show few triangles: half a second or so of one processor. A raster of
+/// 1024 x 768 pixels has 12288 tiles; a scene of some cards or bodies, a few hundred near depth edges.
+constexpr double most_cost = 2500.0;
+constexpr double triangles_of_equal_cost = 250.0;  ///< that cost as much as the tile itself
+
+/// What a tile's target costs, by the triangles in the cells around it.
+double cost_of(const EyeView& all, const LookTile& tile) {
+  const CellGrid& grid = all.cells.grid;
+  const auto x = static_cast<float>(tile.look.x);
+  const auto y = static_cast<float>(tile.look.y);
+  std::uint32_t triangles = 0;
+  for (int row = row_of(grid, y) - 1; row <= row_of(grid, y) + 1; ++row) {
+    if (row < 0 || row >= grid.rows) continue;
+    const int first = row * grid.columns + std::max(0, column_of(grid, x) - 1);
+    const int last = row * grid.columns + std::min(grid.columns - 1, column_of(grid, x) + 1);
+    triangles += all.cells.begin[static_cast<std::size_t>(last) + 1] - all.cells.begin[static_cast<std::size_t>(first)];
+  }
+  return 1.0 + triangles / triangles_of_equal_cost;
+}
 
 using Channels = std::array<StackField, 3>;
 
@@ -84,6 +101,15 @@ void add_excess(const StackField& shown, StackField& change) {
   }
 }
 
+StackSolution solve_channel(const FrameRun& run, const StackPlan& plan, const Fields& fields, std::size_t channel,
+                            const std::stop_token& stop) {
+  StackProblem problem{fields.shown[channel], fields.most, fields.target[channel]};
+  for (float& light : problem.linear) light = std::min(light, 1.0f);
+  StackSolution solution = solve_stack(plan, problem, *run.slice.kernel, stop);
+  add_excess(fields.shown[channel], solution.change);
+  return solution;
+}
+
 }  // namespace
 
 const float* OptimalChange::of(std::size_t tile, std::size_t slice, std::size_t channel) const {
@@ -100,17 +126,18 @@ OptimalChange optimal_change(const FrameRun& run, Side side, const PixelLooks& l
   const double lens_to_pupil_m = run.settings->lens_to_pupil_m;
   const WantedDepth wanted = wanted_depth(*run.views[side], looks, run.slices, *run.slice.kernel);
   if (stop.stop_requested()) return out;
-  out.plan = stack_plan(wanted, looks, run.slices, lens_to_pupil_m, most_tiles);
+  out.plan = stack_plan(wanted, looks, run.slices, lens_to_pupil_m,
+                        {most_cost, [&](std::size_t tile) { return cost_of(all, looks.tiles[tile]); }});
   if (out.plan.empty() || stop.stop_requested()) return out;
-  Fields fields = make_fields(run, side, looks, all, out.plan, stop);
+  const Fields fields = make_fields(run, side, looks, all, out.plan, stop);
   out.measure.tiles = out.plan.asked_tiles;
   out.measure.left_tiles = out.plan.left_tiles;
-  for (std::size_t c = 0; c < static_cast<std::size_t>(run.slice.channels) && !stop.stop_requested(); ++c) {
-    StackProblem problem{fields.shown[c], fields.most, std::move(fields.target[c])};
-    for (float& light : problem.linear) light = std::min(light, 1.0f);
-    StackSolution solution = solve_stack(out.plan, problem, *run.slice.kernel, stop);
-    add_excess(fields.shown[c], solution.change);
-    out.change[c] = std::move(solution.change);
+  const auto channels = static_cast<std::size_t>(run.slice.channels);
+  StackSolution solution;
+  for (std::size_t c = 0; c < channels && !stop.stop_requested(); ++c) {
+    const bool again = c > 0 && fields.shown[c] == fields.shown[c - 1] && fields.target[c] == fields.target[c - 1];
+    if (!again) solution = solve_channel(run, out.plan, fields, c, stop);  // gray in colour is solved once
+    out.change[c] = solution.change;
     out.measure.accepted_tiles = std::max<std::uint64_t>(out.measure.accepted_tiles, solution.accepted_tiles);
     out.measure.linear_error += solution.linear.sum;
     out.measure.optimal_error += solution.optimal.sum;

@@ -80,7 +80,7 @@ class Planner {
     plan_.grid = looks.grid;
   }
 
-  StackPlan run(std::size_t at_most) {
+  StackPlan run(const StackBudget& budget) {
     plan_.slices = slices_in_order(slices_);
     if (plan_.slices.size() < 2) return {};
     const std::vector<std::uint8_t> edges = depth_edges(wanted_, looks_, usual_pupil_m);
@@ -91,7 +91,7 @@ class Planner {
     near_ = widened(edges, width, height, blur_px());
     const std::vector<std::uint8_t> torn = widened(looks_.torn, width, height, reach_px());
     for (std::size_t i = 0; i < near_.size(); ++i) near_[i] = near_[i] != 0 && torn[i] == 0 ? 1 : 0;
-    const std::vector<std::size_t> asked = asked_tiles(edges, at_most);
+    const std::vector<std::size_t> asked = asked_tiles(edges, budget);
     if (asked.empty()) return {};
     seen_ = widened(near_, width, height, blur_px());
     add_tiles(asked);
@@ -134,8 +134,8 @@ class Planner {
     }
   }
 
-  /// Tiles with cells near depth edges; where they are too many, those with the most edges.
-  std::vector<std::size_t> asked_tiles(const std::vector<std::uint8_t>& edges, std::size_t at_most) {
+  /// Tiles with cells near depth edges; where they cost too much, those with the most edges.
+  std::vector<std::size_t> asked_tiles(const std::vector<std::uint8_t>& edges, const StackBudget& budget) {
     const TileGrid& grid = plan_.grid;
     std::vector<int> cells(grid.count(), 0);
     std::vector<int> edge_cells(grid.count(), 0);
@@ -150,14 +150,15 @@ class Planner {
     for (std::size_t i = 0; i < cells.size(); ++i) {
       if (cells[i] > 0 && looks_.tiles[i].usable) asked.push_back(i);
     }
-    if (asked.size() > at_most) {
-      plan_.left_tiles = asked.size() - at_most;
-      std::stable_sort(asked.begin(), asked.end(),
-                       [&](std::size_t a, std::size_t b) { return edge_cells[a] > edge_cells[b]; });
-      asked.resize(at_most);
-      std::sort(asked.begin(), asked.end());
-    }
-    plan_.asked_tiles = asked.size();
+    std::stable_sort(asked.begin(), asked.end(),
+                     [&](std::size_t a, std::size_t b) { return edge_cells[a] > edge_cells[b]; });
+    double spent = 0.0;
+    std::size_t kept = 0;
+    while (kept < asked.size() && (spent += budget.cost(asked[kept])) <= budget.limit) ++kept;
+    plan_.left_tiles = asked.size() - kept;
+    plan_.asked_tiles = kept;
+    asked.resize(kept);
+    std::sort(asked.begin(), asked.end());
     return asked;
   }
 
@@ -285,8 +286,8 @@ bool StackTile::any_free() const {
 }
 
 StackPlan stack_plan(const WantedDepth& wanted, const PixelLooks& looks, const std::vector<SliceSetup>& slices,
-                     double lens_to_pupil_m, std::size_t at_most) {
-  return Planner(wanted, looks, slices, lens_to_pupil_m).run(at_most);
+                     double lens_to_pupil_m, const StackBudget& budget) {
+  return Planner(wanted, looks, slices, lens_to_pupil_m).run(budget);
 }
 
 }  // namespace focalstage

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/compile/pixel_looks.h"
@@ -52,8 +53,15 @@ struct StackPlan {
   std::size_t focus_count() const { return static_cast<std::size_t>(foci); }
 };
 
-/// Lays out what has to be solved for one eye; empty where nothing has. `at_most` bounds the tiles near depth edges.
+/// What tiles near depth edges cost, and how much of it may be spent: that bounds the time of a frame. Where there is
+/// more, the tiles with the most edges are solved.
+struct StackBudget {
+  double limit = 0.0;
+  std::function<double(std::size_t tile)> cost;
+};
+
+/// Lays out what has to be solved for one eye; empty where nothing has.
 StackPlan stack_plan(const WantedDepth& wanted, const PixelLooks& looks, const std::vector<SliceSetup>& slices,
-                     double lens_to_pupil_m, std::size_t at_most);
+                     double lens_to_pupil_m, const StackBudget& budget);
 
 }  // namespace focalstage

@@ -135,7 +135,7 @@ struct StackErrors {
 /// Mean light of one spot of the retina, `grain` wide, over the pupil: by the objects, then by each set of images.
 inline std::vector<double> seen(const WideEye& eye, const std::vector<const FrameImages*>& sets, const glm::dvec2& look,
                                 double grain, double focus_d, double pupil_m, support::Chance& chance) {
-  constexpr int rings = 12, sectors = 12;
+  constexpr int rings = 20, sectors = 20;
   std::vector<double> sums(sets.size() + 1, 0.0);
   for (int ring = 0; ring < rings; ++ring) {
     for (int sector = 0; sector < sectors; ++sector) {
