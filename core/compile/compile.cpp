@@ -91,7 +91,8 @@ void compile_tile(const Frame& frame, std::size_t image, int column, int row, Ro
   if (spec.kind != ImageKind::surface_light) {
     const OptimalChange* const change = frame.changes[spec.eye == ImageEye::left ? Side::left : Side::right];
     const auto tile = static_cast<std::size_t>(row * frame.run.rays->grid.columns() + column);
-    if (change != nullptr) add_change(*change, tile, static_cast<std::size_t>(spec.slice), frame.run.slice.channels, light);
+    if (change != nullptr)
+      add_change(*change, tile, static_cast<std::size_t>(spec.slice), frame.run.slice.channels, light);
   }
   write_tile(frame, image, column, row, light, tally);
 }
@@ -199,7 +200,13 @@ struct Compiler::State {
                   std::move(recycled.codes)};
     out.images.codes.resize(out.images.count * out.images.bytes_per_image());
 
-    Frame work{{&settings, &stage, &*rays, &*met, &surfaces, {&hits.left, &hits.right}, {&views.left, &views.right},
+    Frame work{{&settings,
+                &stage,
+                &*rays,
+                &*met,
+                &surfaces,
+                {&hits.left, &hits.right},
+                {&views.left, &views.right},
                 slice_setups(settings.slices, settings.lens_to_pupil_m),
                 {&kernel, &rule, settings.channels, 1.0f / static_cast<float>(rays->subsamples)}},
                {nullptr, nullptr},

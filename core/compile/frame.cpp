@@ -21,12 +21,8 @@ CompileSettings compile_settings(const Project& project, std::size_t projector_i
 }
 
 OptimalMeasure operator+(const OptimalMeasure& a, const OptimalMeasure& b) {
-  return {a.tiles + b.tiles,
-          a.accepted_tiles + b.accepted_tiles,
-          a.left_tiles + b.left_tiles,
-          a.values + b.values,
-          a.linear_error + b.linear_error,
-          a.optimal_error + b.optimal_error};
+  return {a.tiles + b.tiles,   a.accepted_tiles + b.accepted_tiles, a.left_tiles + b.left_tiles,
+          a.values + b.values, a.linear_error + b.linear_error,     a.optimal_error + b.optimal_error};
 }
 
 double psnr_db(const OptimalMeasure& measure, double error) {

@@ -105,8 +105,8 @@ struct Kernel {
   void (*add_checker)(const CheckerPlanes& planes, const TileLooks& looks, double origin_x, double origin_y,
                       const TileWeights& weights, float share, float a, float b, float* light);
 
-  /// Adds sign * share * value to the 64 `sums` of a tile, row by row: sums(x, y) += sign * the sum over the rectangle of
-  /// share(i, j) * from[(y + way * j) * stride + x + way * i].
+  /// Adds sign * share * value to the 64 `sums` of a tile, row by row: sums(x, y) += sign * the sum over the rectangle
+  /// of share(i, j) * from[(y + way * j) * stride + x + way * i].
   void (*spread)(const float* from, int stride, int way, const float* shares, int width, int height, float sign,
                  float* sums);
 };

@@ -18,7 +18,7 @@ struct LookTile {
   float stretch_m[tile_samples];  ///< the distance that stretches the look (d_c for planar breathing)
   glm::dmat2 look_per_pixel{0.0};
   glm::dmat2 pixel_per_look{0.0};
-  glm::dvec2 look{0.0};        ///< of a seen pixel near the middle
+  glm::dvec2 look{0.0};  ///< of a seen pixel near the middle
   double surface_mean_m = 0.0;
   double stretch_mean_m = 0.0;
   bool usable = false;  ///< neighbours are seen, and the matrices mean something

@@ -57,7 +57,8 @@ bool copy_window(const StackPlan& plan, const StackField& field, std::size_t lay
 
 }  // namespace
 
-void see_tile(const Kernel& kernel, const StackPlan& plan, const StackField& light, std::size_t slot, float sign, float* seen) {
+void see_tile(const Kernel& kernel, const StackPlan& plan, const StackField& light, std::size_t slot, float sign,
+              float* seen) {
   const StackTile& tile = plan.tiles[slot];
   const std::size_t foci = plan.focus_count();
   thread_local std::vector<float> values;
@@ -77,7 +78,8 @@ void see_tile(const Kernel& kernel, const StackPlan& plan, const StackField& lig
   }
 }
 
-void trace_back_tile(const Kernel& kernel, const StackPlan& plan, const StackField& cells, std::size_t slot, float* light) {
+void trace_back_tile(const Kernel& kernel, const StackPlan& plan, const StackField& cells, std::size_t slot,
+                     float* light) {
   const StackTile& tile = plan.tiles[slot];
   const std::size_t foci = plan.focus_count();
   thread_local std::vector<float> values;

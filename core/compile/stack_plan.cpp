@@ -11,7 +11,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "core/compile/ray_samples.h"
+#include "core/compile/stack_optics.h"
 #include "core/optics/vergence.h"
 
 namespace focalstage {
@@ -19,6 +19,7 @@ namespace {
 
 /// A blur wider than this takes long and says little: the pupil is taken smaller where it would.
 constexpr double widest_blur_px = 12.0;
+constexpr double widest_shift = 64.0;  ///< of a slice beside the cells, in pixels
 
 struct Range {
   double low = std::numeric_limits<double>::infinity();
@@ -59,16 +60,10 @@ void keep_wanted(std::vector<std::size_t>& order, const std::vector<SliceSetup>&
   while (order.size() > 2 && slices[order[order.size() - 2]].power_d >= wanted_d.high) order.pop_back();
 }
 
-/// How far slices lie beside the straight looks, in pixels: the lens' stretch less one times the look.
-glm::dvec2 shift_px(const LookTile& tile, const SliceSetup& slice, double lens_to_pupil_m) {
-  const double bent = static_cast<double>(slice.bend) * tile.stretch_mean_m;
-  const double stretch_less_one = bent / (tile.stretch_mean_m + lens_to_pupil_m - bent);
-  return tile.pixel_per_look * (tile.look * stretch_less_one);
-}
-
-/// Pixels along the raster's closer axis per unit of look.
-double finest_px(const LookTile& tile) {
-  return 1.0 / std::min(glm::length(tile.look_per_pixel[0]), glm::length(tile.look_per_pixel[1]));
+/// Pixels per unit of look; more where the raster is skewed.
+double density_px(const LookTile& tile) {
+  const glm::dmat2& m = tile.pixel_per_look;
+  return std::sqrt(0.5 * (glm::dot(m[0], m[0]) + glm::dot(m[1], m[1])));
 }
 
 /// Work of one eye's plan, step by step.
@@ -105,33 +100,40 @@ class Planner {
 
   /// Which slices matter, how wide their blur gets and how far they lie beside the cells.
   void measure(const std::vector<std::uint8_t>& edges) {
-    const int width = plan_.grid.width_px;
-    const auto around = widened(edges, width, plan_.grid.height_px, static_cast<int>(2.0 * widest_blur_px));
+    const auto around = widened(edges, plan_.grid.width_px, plan_.grid.height_px, static_cast<int>(2 * widest_blur_px));
     Range wanted_d;
-    double finest = 0.0;
+    std::vector<double> densities;
     for (int y = 0; y < plan_.grid.height_px; ++y) {
-      for (int x = 0; x < width; ++x) {
+      for (int x = 0; x < plan_.grid.width_px; ++x) {
         const std::size_t i = place_of(plan_.grid, x, y);
         if (around[i] == 0) continue;
         if (wanted_.power_d[i] == wanted_.power_d[i]) wanted_d.add(wanted_.power_d[i]);
-        if (edges[i] != 0 && tile_at(looks_, x, y).usable) finest = std::max(finest, finest_px(tile_at(looks_, x, y)));
+        if (edges[i] != 0 && tile_at(looks_, x, y).usable) densities.push_back(density_px(tile_at(looks_, x, y)));
       }
     }
     keep_wanted(plan_.slices, slices_, wanted_d);
     plan_.foci = 2 * static_cast<int>(plan_.slices.size()) - 1;
+    const auto middle = densities.begin() + static_cast<std::ptrdiff_t>(densities.size() / 2);
+    std::nth_element(densities.begin(), middle, densities.end());
+    densest_px_ = 1.2 * *middle;
     const double span_d = slices_[plan_.slices.back()].power_d - slices_[plan_.slices.front()].power_d;
-    plan_.pupil_m = std::min(usual_pupil_m, 2.0 * widest_blur_px / (span_d * finest));
-    blur_px_ = plan_.pupil_m / 2.0 * span_d * finest;
-    for (int y = 0; y < plan_.grid.height_px; y += tile_side) {
-      for (int x = 0; x < width; x += tile_side) {
-        const LookTile& tile = tile_at(looks_, x, y);
-        if (!tile.usable) continue;
-        for (const std::size_t n : {plan_.slices.front(), plan_.slices.back()}) {
-          const glm::dvec2 shift = glm::abs(shift_px(tile, slices_[n], lens_to_pupil_m_));
-          if (shift.x < 64.0 && shift.y < 64.0) shift_px_ = std::max({shift_px_, shift.x, shift.y});
-        }
-      }
+    plan_.pupil_m = std::min(usual_pupil_m, 2.0 * widest_blur_px / (span_d * densest_px_));
+    blur_px_ = plan_.pupil_m / 2.0 * span_d * densest_px_;
+    for (const LookTile& tile : looks_.tiles) {
+      if (fits(tile)) shift_px_ = std::max(shift_px_, widest_shift_px(tile));
     }
+  }
+
+  double widest_shift_px(const LookTile& tile) const {
+    const glm::dvec2 low = glm::abs(shift_px(tile, slices_[plan_.slices.front()], lens_to_pupil_m_));
+    const glm::dvec2 high = glm::abs(shift_px(tile, slices_[plan_.slices.back()], lens_to_pupil_m_));
+    return std::max({low.x, low.y, high.x, high.y});
+  }
+
+  /// Where the eye sees the raster so densely that blur and shift would run over too many pixels, as on a surface that
+  /// it sees edge-on, linear filtering stays.
+  bool fits(const LookTile& tile) const {
+    return tile.usable && density_px(tile) <= densest_px_ && widest_shift_px(tile) <= widest_shift;
   }
 
   /// Tiles with cells near depth edges; where they cost too much, those with the most edges.
@@ -148,7 +150,7 @@ class Planner {
     }
     std::vector<std::size_t> asked;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (cells[i] > 0 && looks_.tiles[i].usable) asked.push_back(i);
+      if (cells[i] > 0 && fits(looks_.tiles[i])) asked.push_back(i);
     }
     std::stable_sort(asked.begin(), asked.end(),
                      [&](std::size_t a, std::size_t b) { return edge_cells[a] > edge_cells[b]; });
@@ -172,7 +174,7 @@ class Planner {
     kept = widened(kept, grid.columns(), grid.rows(), around);
     plan_.slot_of.assign(grid.count(), -1);
     for (std::size_t i = 0; i < kept.size(); ++i) {
-      if (kept[i] == 0 || !looks_.tiles[i].usable) continue;
+      if (kept[i] == 0 || !fits(looks_.tiles[i])) continue;
       plan_.slot_of[i] = static_cast<std::int32_t>(plan_.tiles.size());
       StackTile tile;
       tile.column = static_cast<int>(i) % grid.columns();
@@ -191,7 +193,7 @@ class Planner {
   void set_up_tile(StackTile& tile, const std::vector<std::uint8_t>& torn) const {
     const TileGrid& grid = plan_.grid;
     const LookTile& looks = looks_.tiles[static_cast<std::size_t>(tile.row * grid.columns() + tile.column)];
-    set_vergences(tile, looks);
+    set_optics(tile, looks, plan_, slices_, lens_to_pupil_m_);
     tile.free.assign(plan_.slice_count(), 0);
     for (int i = 0; i < tile_samples; ++i) {
       const int x = tile.column * tile_side + i % tile_side;
@@ -202,69 +204,12 @@ class Planner {
       if (is_near(x, y)) tile.asked |= bit;
       for (std::size_t n = 0; n < plan_.slice_count(); ++n) {
         const glm::dvec2 shift = shift_px(looks, slices_[plan_.slices[n]], lens_to_pupil_m_);
-        const bool free = is_near(x + static_cast<int>(std::lround(shift.x)), y + static_cast<int>(std::lround(shift.y)));
+        const bool free =
+            is_near(x + static_cast<int>(std::lround(shift.x)), y + static_cast<int>(std::lround(shift.y)));
         if (free && torn[place_of(grid, x, y)] == 0) tile.free[n] |= bit;
       }
     }
     tile.asked &= tile.counted;
-    set_spans(tile, looks);
-  }
-
-  void set_vergences(StackTile& tile, const LookTile& looks) const {
-    const auto at_pupil_d = [&](double power_d) {
-      return vergence_from_pupil_d(image_vergence_d(looks.surface_mean_m, power_d), lens_to_pupil_m_);
-    };
-    double before_d = 0.0;
-    for (std::size_t n = 0; n < plan_.slice_count(); ++n) {
-      const double power_d = slices_[plan_.slices[n]].power_d;
-      if (n > 0) tile.focus_d.push_back(at_pupil_d(0.5 * (before_d + power_d)));
-      tile.focus_d.push_back(at_pupil_d(power_d));
-      tile.slice_d.push_back(at_pupil_d(power_d));
-      before_d = power_d;
-    }
-  }
-
-  /// Every ray of a cell falls between four pixels of a slice and takes of each the part that a pixel's square, moved
-  /// there, covers of it.
-  void set_spans(StackTile& tile, const LookTile& looks) const {
-    for (std::size_t n = 0; n < plan_.slice_count(); ++n) {
-      const glm::dvec2 shift = shift_px(looks, slices_[plan_.slices[n]], lens_to_pupil_m_);
-      for (std::size_t k = 0; k < plan_.focus_count(); ++k) {
-        const double blur = plan_.pupil_m / 2.0 * (tile.slice_d[n] - tile.focus_d[k]);
-        add_span(tile, looks.pixel_per_look * blur, shift);
-      }
-    }
-  }
-
-  static void add_span(StackTile& tile, const glm::dmat2& px_per_ray, const glm::dvec2& shift) {
-    const auto& samples = ray_samples();
-    glm::dvec2 low(std::numeric_limits<double>::infinity());
-    glm::dvec2 high = -low;
-    for (const RaySample& sample : samples) {
-      const glm::dvec2 at = px_per_ray * sample.pupil - shift;
-      low = glm::min(low, at);
-      high = glm::max(high, at);
-    }
-    StackSpan span;
-    span.x = static_cast<int>(std::floor(low.x));
-    span.y = static_cast<int>(std::floor(low.y));
-    span.width = static_cast<int>(std::floor(high.x)) + 2 - span.x;
-    span.height = static_cast<int>(std::floor(high.y)) + 2 - span.y;
-    span.first = tile.shares.size();
-    std::vector<double> shares(static_cast<std::size_t>(span.width) * static_cast<std::size_t>(span.height), 0.0);
-    for (const RaySample& sample : samples) {
-      const glm::dvec2 at = px_per_ray * sample.pupil - shift - glm::dvec2(span.x, span.y);
-      const glm::dvec2 whole = glm::floor(at);
-      const glm::dvec2 part = at - whole;
-      const auto first = static_cast<std::size_t>(whole.y) * static_cast<std::size_t>(span.width) +
-                         static_cast<std::size_t>(whole.x);
-      shares[first] += (1.0 - part.x) * (1.0 - part.y);
-      shares[first + 1] += part.x * (1.0 - part.y);
-      shares[first + static_cast<std::size_t>(span.width)] += (1.0 - part.x) * part.y;
-      shares[first + static_cast<std::size_t>(span.width) + 1] += part.x * part.y;
-    }
-    for (const double share : shares) tile.shares.push_back(static_cast<float>(share / rays_per_pixel));
-    tile.spans.push_back(span);
   }
 
   const WantedDepth& wanted_;
@@ -275,6 +220,7 @@ class Planner {
   std::vector<std::uint8_t> near_;
   std::vector<std::uint8_t> seen_;  ///< where what may change can be seen
   std::vector<std::uint8_t> is_asked_;
+  double densest_px_ = 0.0;  ///< pixels per unit of look
   double blur_px_ = 0.0;
   double shift_px_ = 0.0;
 };

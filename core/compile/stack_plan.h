@@ -41,8 +41,8 @@ struct StackTile {
 struct StackPlan {
   TileGrid grid;
   double pupil_m = 0.0;
-  std::vector<std::size_t> slices;  ///< the project's indices, by rising power
-  int foci = 0;                     ///< at these slices and half-way between
+  std::vector<std::size_t> slices;    ///< the project's indices, by rising power
+  int foci = 0;                       ///< at these slices and half-way between
   std::vector<std::int32_t> slot_of;  ///< per tile of the grid: index into `tiles`, or -1
   std::vector<StackTile> tiles;
   std::size_t asked_tiles = 0;

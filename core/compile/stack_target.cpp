@@ -124,8 +124,8 @@ std::vector<StackTarget::Candidate> StackTarget::candidates(const StackTile& til
     const ViewTriangle& triangle = all_.view.triangles[index];
     const ViewBounds& bounds = all_.view.bounds[index];
     const double middle = 0.5 * (static_cast<double>(bounds.min_inverse_m) + bounds.max_inverse_m);
-    WantedVergence wanted = wanted_vergence(all_.rules[triangle.drawable], slices_, looks.surface_mean_m, middle,
-                                            all_.lens_to_pupil_m);
+    WantedVergence wanted =
+        wanted_vergence(all_.rules[triangle.drawable], slices_, looks.surface_mean_m, middle, all_.lens_to_pupil_m);
     const auto [least, most] = std::minmax({wanted.at(bounds.min_inverse_m), wanted.at(bounds.max_inverse_m)});
     const bool beyond = most <= low_d || least >= high_d;
     if (beyond) wanted = {0.0, most <= low_d ? low_d : high_d};
@@ -137,8 +137,9 @@ std::vector<StackTarget::Candidate> StackTarget::candidates(const StackTile& til
 }
 
 void StackTarget::add_ray(const StackTile& tile, std::size_t focus, const Seen& seen, std::vector<float>& out) const {
-  const KernelView view{seen.triangles.data(), seen.bounds.data(), {{}, 1, 1, 0.0f, 0.0f}, seen.begin,
-                        seen.items.data(),     static_cast<float>(all_.view.nearest_m)};
+  const KernelView view{seen.triangles.data(),  seen.bounds.data(),
+                        {{}, 1, 1, 0.0f, 0.0f}, seen.begin,
+                        seen.items.data(),      static_cast<float>(all_.view.nearest_m)};
   TileNearest nearest;
   kernel_.cover(view, seen.looks, seen.origin_x, seen.origin_y, nearest);
   for (int i = 0; i < tile_samples; ++i) {

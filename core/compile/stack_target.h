@@ -15,14 +15,14 @@ namespace focalstage {
 /// an eye focused at f runs along u - h f; what stands at the inverse depth r it meets where the pupil's centre sees it
 /// along u - h f + h r. So every triangle seen from the centre gives the one seen from h by a few products, also what
 /// is hidden from the centre. What is wanted elsewhere than it stands (fixed, offset, pinned) is met where its light
-/// shall come into focus, at the wanted vergence a instead of r: along u + h (a - f). Who hides whom is decided by where
-/// things stand, as it is for the pupil's centre, and what lies beyond the outermost slices counts as lying on them, as
-/// it does in linear filtering.
+/// shall come into focus, at the wanted vergence a instead of r: along u + h (a - f). Who hides whom is decided by
+/// where things stand, as it is for the pupil's centre, and what lies beyond the outermost slices counts as lying on
+/// them, as it does in linear filtering.
 class StackTarget {
  public:
   /// `all` holds the objects' triangles, without their backs left out, in cells.
-  StackTarget(const EyeView& all, const PixelLooks& looks, const StackPlan& plan,
-              const std::vector<SliceSetup>& slices, int channels, const Kernel& kernel);
+  StackTarget(const EyeView& all, const PixelLooks& looks, const StackPlan& plan, const std::vector<SliceSetup>& slices,
+              int channels, const Kernel& kernel);
 
   /// Linear light of the asked cells of one tile into `out` [channel][focus][64].
   void tile(std::size_t slot, std::vector<float>& out) const;

@@ -62,8 +62,8 @@ WantedDepth wanted_depth(const EyeView& view, const PixelLooks& looks, const std
         if (nearest.triangle[i] < 0 || x >= grid.width_px || y >= grid.height_px) continue;
         const ViewTriangle& triangle = view.view.triangles[static_cast<std::size_t>(nearest.triangle[i])];
         const double inverse_m = nearest.inverse_m[i];
-        const WantedVergence wanted = wanted_vergence(view.rules[triangle.drawable], slices, tile.surface_m[i],
-                                                      inverse_m, view.lens_to_pupil_m);
+        const WantedVergence wanted =
+            wanted_vergence(view.rules[triangle.drawable], slices, tile.surface_m[i], inverse_m, view.lens_to_pupil_m);
         const double at_pupil_d = wanted.at(inverse_m);
         const double at_lens_d = at_pupil_d / (1.0 - at_pupil_d * view.lens_to_pupil_m);
         out.vergence_d[place_of(grid, x, y)] = static_cast<float>(at_pupil_d);

@@ -167,7 +167,8 @@ void read_optimal(Hdf5In& in, std::vector<FrameMeasure>& measures) {
   const auto linear = in.numbers<double>("/measure/optimal_linear_error", shape);
   const auto optimal = in.numbers<double>("/measure/optimal_error", shape);
   for (const auto* numbers : {&linear, &optimal}) {
-    const bool sums = std::all_of(numbers->begin(), numbers->end(), [](double d) { return std::isfinite(d) && d >= 0.0; });
+    const bool sums =
+        std::all_of(numbers->begin(), numbers->end(), [](double d) { return std::isfinite(d) && d >= 0.0; });
     if (!sums) in.refuse("/measure", "it is no sum of squares");
   }
   if (!in.ok()) return;

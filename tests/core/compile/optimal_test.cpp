@@ -140,9 +140,9 @@ TEST_CASE("random cards: never worse than linear, with any number of threads") {
     for (int i = 0; i < count; ++i) {
       const Rigid pose{{chance.between(-0.06, 0.06), chance.between(-0.05, 0.05), -chance.between(0.37, 0.7)},
                        glm::angleAxis(chance.between(-0.8, 0.8), chance.direction())};
-      StagedObject card = support::object_of(
-          cards::checkered({chance.between(0.01, 0.08), chance.between(0.01, 0.08)}, pose,
-                           {chance.whole(1, 6), chance.whole(1, 6)}, chance.between(0.0, 1.0), chance.between(0.0, 1.0)));
+      StagedObject card = support::object_of(cards::checkered({chance.between(0.01, 0.08), chance.between(0.01, 0.08)},
+                                                              pose, {chance.whole(1, 6), chance.whole(1, 6)},
+                                                              chance.between(0.0, 1.0), chance.between(0.0, 1.0)));
       card.index = stage.objects.size();
       stage.objects.push_back(card);
     }
@@ -202,7 +202,8 @@ TEST_CASE("what leaves nothing to solve is linear: one slice, equal powers, no s
 }
 
 TEST_CASE("repeated powers are solved as if they stood once") {
-  const CompiledFrame twice = compiled(cards::room(), cards::settings({0.5, -1.0, 0.5, 1.0, -1.0}, Assignment::optimal));
+  const CompiledFrame twice =
+      compiled(cards::room(), cards::settings({0.5, -1.0, 0.5, 1.0, -1.0}, Assignment::optimal));
   const CompiledFrame once = compiled(cards::room(), cards::settings({0.5, -1.0, 1.0}, Assignment::optimal));
   CHECK(twice.measure.optimal == once.measure.optimal);
   for (const std::size_t eye : {0u, 1u}) {
@@ -232,8 +233,7 @@ TEST_CASE("light that the image carries for the surface is left room") {
 
 TEST_CASE("a step of the surface and its neighbourhood stay linear") {
   Stage stage = cards::room();
-  stage.surfaces[0] =
-      support::surface_of(support::standing(support::step({0.5, 0.4}, 0.2), {{0.0, 0.0, -0.515}}));
+  stage.surfaces[0] = support::surface_of(support::standing(support::step({0.5, 0.4}, 0.2), {{0.0, 0.0, -0.515}}));
   const CompileSettings settings = cards::settings(five, Assignment::optimal);
   const CompiledFrame optimal = compiled(stage, settings);
   const CompiledFrame linear = compiled(stage, with(settings, Assignment::linear));

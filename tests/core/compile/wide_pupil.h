@@ -112,8 +112,8 @@ class WideEye {
     const glm::dvec3 point_m = projector_from_world_.point(world_m);
     const glm::dvec2 px = pixel_of_tangent(settings_.projector, glm::dvec2(point_m) / -point_m.z);
     if (!(px.x >= 0.0 && px.y >= 0.0 && px.x < images.width_px && px.y < images.height_px)) return 0.0;
-    const auto at = static_cast<std::size_t>(px.y) * static_cast<std::size_t>(images.width_px) +
-                    static_cast<std::size_t>(px.x);
+    const auto at =
+        static_cast<std::size_t>(px.y) * static_cast<std::size_t>(images.width_px) + static_cast<std::size_t>(px.x);
     return images.image(image)[at] / 255.0;
   }
 
@@ -167,7 +167,8 @@ inline StackErrors errors_near_edges(const WideEye& eye, const Stage& stage,
     const glm::dvec2 look{chance.between(low.x, high.x), chance.between(low.y, high.y)};
     const Drawable* const here = object(look);
     bool edge = false;
-    for (const glm::dvec2& off : {glm::dvec2(reach, 0), glm::dvec2(-reach, 0), glm::dvec2(0, reach), glm::dvec2(0, -reach)}) {
+    for (const glm::dvec2& off :
+         {glm::dvec2(reach, 0), glm::dvec2(-reach, 0), glm::dvec2(0, reach), glm::dvec2(0, -reach)}) {
       const Drawable* const there = object(look + off);
       edge = edge || (here != nullptr && there != nullptr && here != there);
     }
@@ -175,7 +176,8 @@ inline StackErrors errors_near_edges(const WideEye& eye, const Stage& stage,
     ++found;
     for (const double focus_d : foci_d) {
       const std::vector<double> light = seen(eye, sets, look, grain, focus_d, pupil_m, chance);
-      for (std::size_t i = 0; i < sets.size(); ++i) errors.sums[i] += (light[i + 1] - light[0]) * (light[i + 1] - light[0]);
+      for (std::size_t i = 0; i < sets.size(); ++i)
+        errors.sums[i] += (light[i + 1] - light[0]) * (light[i + 1] - light[0]);
       ++errors.values;
     }
   }
