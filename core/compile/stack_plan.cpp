@@ -19,6 +19,7 @@ namespace {
 
 /// A blur wider than this takes long and says little: the pupil is taken smaller where it would.
 constexpr double widest_blur_px = 12.0;
+constexpr double usual_pairs = 45.0;   ///< of slice and focus: five slices
 constexpr double widest_shift = 64.0;  ///< of a slice beside the cells, in pixels
 
 struct Range {
@@ -154,9 +155,10 @@ class Planner {
     }
     std::stable_sort(asked.begin(), asked.end(),
                      [&](std::size_t a, std::size_t b) { return edge_cells[a] > edge_cells[b]; });
+    const double pairs = static_cast<double>(plan_.slice_count() * plan_.focus_count()) / usual_pairs;
     double spent = 0.0;
     std::size_t kept = 0;
-    while (kept < asked.size() && (spent += budget.cost(asked[kept])) <= budget.limit) ++kept;
+    while (kept < asked.size() && (spent += budget.cost(asked[kept]) * std::max(1.0, pairs)) <= budget.limit) ++kept;
     plan_.left_tiles = asked.size() - kept;
     plan_.asked_tiles = kept;
     asked.resize(kept);

@@ -53,8 +53,9 @@ struct StackPlan {
   std::size_t focus_count() const { return static_cast<std::size_t>(foci); }
 };
 
-/// What tiles near depth edges cost, and how much of it may be spent: that bounds the time of a frame. Where there is
-/// more, the tiles with the most edges are solved.
+/// What tiles near depth edges cost with up to five slices (with more, in proportion to the pairs of slice and focus),
+/// and how much of it may be spent: that bounds time and memory of a frame. Where there is more, the tiles with the
+/// most edges are solved.
 struct StackBudget {
   double limit = 0.0;
   std::function<double(std::size_t tile)> cost;

@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/compile/compile.h"
 #include "core/compile/stack_fields.h"
 #include "core/compile/stack_plan.h"
 #include "core/compile/stack_solver.h"
@@ -102,6 +103,21 @@ TEST_CASE("a plan holds to its budget and keeps the tiles with the most edges") 
   CHECK(some.asked_tiles == 20);
   CHECK(some.left_tiles == all.asked_tiles - 20);
   CHECK(plan_of(room, {0.5, [](std::size_t) { return 1.0; }}).empty());
+}
+
+TEST_CASE("many slices count for more, so that time and memory stay bounded") {
+  const Stage stage = cards::room();
+  std::vector<double> powers_d;
+  for (int i = 0; i < 64; ++i) powers_d.push_back(-1.2 + 0.035 * i);
+  const EyeRoom room(stage, cards::settings(powers_d, Assignment::optimal));
+  const StackPlan plan = plan_of(room, {2500.0, [](std::size_t) { return 1.0; }});
+  CHECK(plan.slice_count() > 40);
+  CHECK(plan.left_tiles > 0);
+  const auto pairs = static_cast<double>(plan.slice_count() * plan.focus_count());
+  CHECK(static_cast<double>(plan.asked_tiles) <= 2500.0 * 45.0 / pairs);
+  const auto frame = Compiler(room.settings).frame(stage);
+  REQUIRE(frame);
+  CHECK(frame->measure.optimal.left.left_tiles > 0);
 }
 
 TEST_CASE("a pupil whose blur would be too wide is taken smaller") {
