@@ -11,6 +11,9 @@
 #include <utility>
 
 #include "core/compile/encode.h"
+#include "core/compile/frame_run.h"
+#include "core/compile/optimal.h"
+#include "core/compile/pixel_looks.h"
 #include "core/compile/slice_tile.h"
 #include "core/compile/surface_hits.h"
 #include "core/mesh/solid.h"
@@ -44,24 +47,17 @@ struct RowTally {
   std::vector<ObjectTally> objects;
 };
 
-/// One frame at work: everything that the rows of tiles read, and the images that they write.
-struct FrameRun {
-  const CompileSettings* settings;
-  const Stage* stage;
-  const ProjectorRays* rays;
-  const ProjectorHits* met;
-  const std::vector<ViewDrawable>* surfaces;
-  PerEye<const EyeHits*> hits;
-  PerEye<const EyeView*> views;
-  std::vector<SliceSetup> slices;
-  SliceRun slice;
+/// A frame's images in the making.
+struct Frame {
+  FrameRun run;
+  PerEye<const OptimalChange*> changes;  ///< null without
   const Encoder* encoder;
   FrameImages* images;
 };
 
-void write_tile(const FrameRun& run, std::size_t image, int tile_column, int tile_row, const TileLight& light,
+void write_tile(const Frame& frame, std::size_t image, int tile_column, int tile_row, const TileLight& light,
                 RowTally& tally) {
-  FrameImages& out = *run.images;
+  FrameImages& out = *frame.images;
   const auto channels = static_cast<std::size_t>(out.channels);
   const int left = tile_column * tile_side;
   const int columns = std::min(tile_side, out.width_px - left);
@@ -79,7 +75,7 @@ void write_tile(const FrameRun& run, std::size_t image, int tile_column, int til
       for (std::size_t c = 0; c < channels; ++c) {
         const float value = light.channel[c][y * tile_side + x];
         most = std::max(most, value);
-        *to++ = run.encoder->code(value);
+        *to++ = frame.encoder->code(value);
       }
       constexpr float full = 1.0f + 1e-4f;  // the rounding of sums of weights is no clipping
       tally.lit_pixels += most > 0.0f ? 1 : 0;
@@ -88,41 +84,21 @@ void write_tile(const FrameRun& run, std::size_t image, int tile_column, int til
   }
 }
 
-void add_surface_light(const FrameRun& run, const TileMet& met, TileLight& light) {
-  if (!met.any) return;
-  for (int i = 0; i < tile_samples; ++i) {
-    if (met.drawable[i] < 0) continue;
-    const std::uint32_t owner = (*run.surfaces)[static_cast<std::size_t>(met.drawable[i])].owner;
-    const auto amount = static_cast<float>(run.stage->surfaces[owner].illumination) * run.slice.share;
-    for (int c = 0; c < run.slice.channels; ++c) light.channel[c][i] += amount;
-    light.any = light.any || amount > 0.0f;
-  }
-}
-
-void compile_tile(const FrameRun& run, std::size_t image, int column, int row, RowTally& tally) {
-  const ImageSpec& spec = run.settings->images[image];
+void compile_tile(const Frame& frame, std::size_t image, int column, int row, RowTally& tally) {
+  const ImageSpec& spec = frame.run.settings->images[image];
   TileLight light;
-  std::memset(light.channel, 0, sizeof(float) * tile_samples * static_cast<std::size_t>(run.slice.channels));
-  const TileGrid& grid = run.rays->grid;
-  for (int subsample = 0; subsample < run.rays->subsamples; ++subsample) {
-    const std::size_t at = static_cast<std::size_t>(subsample) * grid.count() +
-                           static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns()) +
-                           static_cast<std::size_t>(column);
-    if (spec.kind != ImageKind::surface_light) {
-      const Side side = spec.eye == ImageEye::left ? Side::left : Side::right;
-      const EyeView& view = *run.views[side];
-      const EyeTile& tile = run.hits[side]->tiles[at];
-      const auto slice = static_cast<std::size_t>(spec.slice);
-      if (may_be_lit(view, tile, run.slices[slice], slice)) {
-        slice_tile(run.slice, view, tile, run.slices[slice], slice, light, tally.objects);
-      }
-    }
-    if (spec.kind != ImageKind::content) add_surface_light(run, run.met->tiles[at], light);
+  light_of_tile(frame.run, spec, column, row, light, tally.objects);
+  if (spec.kind != ImageKind::surface_light) {
+    const OptimalChange* const change = frame.changes[spec.eye == ImageEye::left ? Side::left : Side::right];
+    const auto tile = static_cast<std::size_t>(row * frame.run.rays->grid.columns() + column);
+    if (change != nullptr)
+      add_change(*change, tile, static_cast<std::size_t>(spec.slice), frame.run.slice.channels, light);
   }
-  write_tile(run, image, column, row, light, tally);
+  write_tile(frame, image, column, row, light, tally);
 }
 
-std::vector<RowTally> compile_rows(const FrameRun& run, std::stop_token stop) {
+std::vector<RowTally> compile_rows(const Frame& frame, std::stop_token stop) {
+  const FrameRun& run = frame.run;
   const TileGrid& grid = run.rays->grid;
   std::vector<RowTally> tallies(static_cast<std::size_t>(grid.rows()));
   tbb::parallel_for(0, grid.rows(), [&](int row) {
@@ -130,7 +106,7 @@ std::vector<RowTally> compile_rows(const FrameRun& run, std::stop_token stop) {
     tally.objects.resize(run.stage->objects.size());
     if (stop.stop_requested()) return;
     for (std::size_t image = 0; image < run.settings->images.size(); ++image) {
-      for (int column = 0; column < grid.columns(); ++column) compile_tile(run, image, column, row, tally);
+      for (int column = 0; column < grid.columns(); ++column) compile_tile(frame, image, column, row, tally);
     }
   });
   return tallies;
@@ -203,6 +179,9 @@ struct Compiler::State {
     for (const Side side : both_sides) {
       hits[side] = eye_hits(*met, rays->grid, settings.projector.world_from_projector, eyes[side], surfaces,
                             settings.slices.breathing, kernel);
+      if (optimal()) {
+        looks[side] = pixel_looks(hits[side], rays->grid, rays->subsamples, settings.lens_to_pupil_m);
+      }
     }
     surfaces_before = stage.surfaces;
     viewer_before = stage.world_from_viewer;
@@ -221,24 +200,53 @@ struct Compiler::State {
                   std::move(recycled.codes)};
     out.images.codes.resize(out.images.count * out.images.bytes_per_image());
 
-    FrameRun run{
-        &settings, &stage, &*rays,   &*met,      &surfaces, {&hits.left, &hits.right}, {&views.left, &views.right},
-        {},        {},     &encoder, &out.images};
-    run.slices = slice_setups(settings.slices, settings.lens_to_pupil_m);
-    run.slice = {&kernel, &rule, settings.channels, 1.0f / static_cast<float>(rays->subsamples)};
+    Frame work{{&settings,
+                &stage,
+                &*rays,
+                &*met,
+                &surfaces,
+                {&hits.left, &hits.right},
+                {&views.left, &views.right},
+                slice_setups(settings.slices, settings.lens_to_pupil_m),
+                {&kernel, &rule, settings.channels, 1.0f / static_cast<float>(rays->subsamples)}},
+               {nullptr, nullptr},
+               &encoder,
+               &out.images};
     const PerEye<Eye> eyes = eyes_of(stage.world_from_viewer, stage.interpupillary_m, settings.lens_to_pupil_m);
     tbb::parallel_for(0, 2, [&](int i) {
       const Side side = both_sides[static_cast<std::size_t>(i)];
       if (stop.stop_requested()) return;
-      look_at_objects(views[side], stage, objects, eyes[side], hits[side], rays->grid, run.slices);
+      look_at_objects(views[side], stage, objects, eyes[side], hits[side], rays->grid, work.run.slices);
     });
-    const std::vector<RowTally> tallies = compile_rows(run, stop);
+    if (optimal()) solve(work, objects, eyes, stop);
+    const std::vector<RowTally> tallies = compile_rows(work, stop);
     out.measure = gather(stage, tallies);
     out.measure.surface_pixels = surface_measure.surface_pixels;
     out.measure.defocused_pixels = surface_measure.defocused_pixels;
     out.measure.worst_defocus_d = surface_measure.worst_defocus_d;
+    for (const Side side : both_sides) {
+      if (work.changes[side] != nullptr) out.measure.optimal[side] = changes[side].measure;
+    }
     solid.tidy();
     return out;
+  }
+
+  bool optimal() const { return settings.slices.assignment == Assignment::optimal; }
+
+  /// What changes against linear filtering. Eyes beside each other look past what is solid from other sides.
+  void solve(Frame& work, const std::vector<ViewDrawable>& objects, const PerEye<Eye>& eyes, std::stop_token stop) {
+    std::vector<ViewDrawable> open = objects;
+    for (ViewDrawable& seen : open) seen.solid = false;
+    const bool same = std::none_of(objects.begin(), objects.end(), [](const ViewDrawable& seen) { return seen.solid; });
+    tbb::parallel_for(0, 2, [&](int i) {
+      const Side side = both_sides[static_cast<std::size_t>(i)];
+      if (stop.stop_requested()) return;
+      if (!same) {
+        look_at_objects(open_views[side], *work.run.stage, open, eyes[side], hits[side], rays->grid, work.run.slices);
+      }
+      changes[side] = optimal_change(work.run, side, looks[side], same ? views[side] : open_views[side], stop);
+      work.changes[side] = &changes[side];
+    });
   }
 
   CompileSettings settings;
@@ -252,7 +260,10 @@ struct Compiler::State {
   std::optional<ProjectorHits> met;
   SurfaceMeasure surface_measure;
   PerEye<EyeHits> hits;
+  PerEye<PixelLooks> looks;  ///< with `optimal` alone, as the two below
   PerEye<EyeView> views;
+  PerEye<EyeView> open_views;  ///< no back left out
+  PerEye<OptimalChange> changes;
   std::vector<StagedSurface> surfaces_before;
   Rigid viewer_before;
   double interpupillary_before_m = 0.0;
@@ -265,10 +276,6 @@ Compiler::Compiler(Compiler&&) noexcept = default;
 Compiler& Compiler::operator=(Compiler&&) noexcept = default;
 
 Result<CompiledFrame> Compiler::frame(const Stage& stage, std::stop_token stop, FrameImages recycled) {
-  if (state_->settings.slices.assignment == Assignment::optimal) {
-    return Fault{"compile.assignment", "/slices/assignment", "the assignment \"optimal\" is not available yet",
-                 "use \"linear\" or \"nearest\""};
-  }
   CompiledFrame out;
   state_->arena.execute([&] { out = state_->frame(stage, stop, std::move(recycled)); });
   if (stop.stop_requested()) return Fault{"compile.cancelled", "", "compiling was cancelled", ""};

@@ -21,8 +21,8 @@ class Compiler {
   Compiler(Compiler&&) noexcept;
   Compiler& operator=(Compiler&&) noexcept;
 
-  /// The images of `stage`. Faults: "compile.cancelled" within milliseconds of a stop request,
-  /// "compile.assignment" for a rule this engine does not know. `recycled` gives back the memory of an earlier frame.
+  /// The images of `stage`. Fault: "compile.cancelled" within milliseconds of a stop request. `recycled` gives back the
+  /// memory of an earlier frame.
   Result<CompiledFrame> frame(const Stage& stage, std::stop_token stop = {}, FrameImages recycled = {});
 
  private:

@@ -1,5 +1,8 @@
 #include "core/compile/frame.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace focalstage {
 
 CompileSettings compile_settings(const Project& project, std::size_t projector_index) {
@@ -15,6 +18,21 @@ CompileSettings compile_settings(const Project& project, std::size_t projector_i
   settings.slices = project.slices;
   settings.images = image_plan(project);
   return settings;
+}
+
+OptimalMeasure operator+(const OptimalMeasure& a, const OptimalMeasure& b) {
+  return {a.tiles + b.tiles,   a.accepted_tiles + b.accepted_tiles, a.left_tiles + b.left_tiles,
+          a.values + b.values, a.linear_error + b.linear_error,     a.optimal_error + b.optimal_error};
+}
+
+double psnr_db(const OptimalMeasure& measure, double error) {
+  constexpr double least = 1e-12;  // no error at all counts as 120 dB
+  if (measure.values == 0) return 0.0;
+  return -10.0 * std::log10(std::max(least, error / static_cast<double>(measure.values)));
+}
+
+double gain_db(const OptimalMeasure& measure) {
+  return psnr_db(measure, measure.optimal_error) - psnr_db(measure, measure.linear_error);
 }
 
 }  // namespace focalstage

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/sides.h"
 #include "core/optics/image_plan.h"
 #include "core/optics/projector_model.h"
 #include "core/scene/project.h"
@@ -59,6 +60,29 @@ struct ObjectMeasure {
   double worst_above_d = 0.0;  ///< and above the highest
 };
 
+/// What the assignment `optimal` did for one eye: the error of the focal stack (what is seen at the focuses of the
+/// slices and half-way between, against the virtual scene itself) over the pixels near depth edges, in linear light.
+struct OptimalMeasure {
+  std::uint64_t tiles = 0;           ///< of 8 x 8 pixels, near depth edges
+  std::uint64_t accepted_tiles = 0;  ///< of those, where solving made the error smaller; the others stay linear
+  std::uint64_t left_tiles = 0;      ///< more of them than time allows: linear
+  std::uint64_t values = 0;          ///< pixels times focuses times channels
+  double linear_error = 0.0;         ///< sum of squares over these, of linear filtering
+  double optimal_error = 0.0;        ///< and of the images made
+
+  bool operator==(const OptimalMeasure&) const = default;
+};
+
+/// How much closer the focal stack is than linear filtering's, as a difference of peak signal to noise ratios; 0 where
+/// nothing was solved.
+double gain_db(const OptimalMeasure& measure);
+
+/// Peak signal to noise ratio of an error sum over the measure's values, full light being the peak.
+double psnr_db(const OptimalMeasure& measure, double error);
+
+/// Both together: of two frames, or of two eyes.
+OptimalMeasure operator+(const OptimalMeasure& a, const OptimalMeasure& b);
+
 /// What compiling measured of a frame.
 struct FrameMeasure {
   std::uint64_t lit_pixels = 0;        ///< pixels above zero, over all images
@@ -67,6 +91,7 @@ struct FrameMeasure {
   std::uint64_t defocused_pixels = 0;  ///< of those, outside the projector's depth of field
   double worst_defocus_d = 0.0;
   std::vector<ObjectMeasure> objects;  ///< one per staged object
+  PerEye<OptimalMeasure> optimal{};    ///< zero with other assignments
 };
 
 struct CompiledFrame {

@@ -104,6 +104,11 @@ struct Kernel {
   /// Adds weight * share * (the level of the square that the look meets): `a` where the squares' numbers sum to even.
   void (*add_checker)(const CheckerPlanes& planes, const TileLooks& looks, double origin_x, double origin_y,
                       const TileWeights& weights, float share, float a, float b, float* light);
+
+  /// Adds sign * share * value to the 64 `sums` of a tile, row by row: sums(x, y) += sign * the sum over the rectangle
+  /// of share(i, j) * from[(y + way * j) * stride + x + way * i].
+  void (*spread)(const float* from, int stride, int way, const float* shares, int width, int height, float sign,
+                 float* sums);
 };
 
 extern const Kernel portable_kernel;

@@ -254,8 +254,39 @@ void add_checker(const CheckerPlanes& planes, const TileLooks& looks, double ori
   }
 }
 
+using LooseFloats = float __attribute__((vector_size(4 * lanes), aligned(4)));
+
+void spread(const float* from, int stride, int way, const float* shares, int width, int height, float sign,
+            float* sums) {
+  constexpr int rows = lanes;  // as many at a time as there are registers, for sums that do not wait for each other
+  constexpr int parts = tile_side / lanes;
+  for (int first = 0; first < tile_side; first += rows) {
+    Floats sum[rows][parts] = {};
+    const float* share = shares;
+    for (int j = 0; j < height; ++j) {
+      const float* const line = from + (first + way * j) * stride;
+      for (int i = 0; i < width; ++i, ++share) {
+        if (*share == 0.0f) continue;
+        const Floats each = Floats{} + *share;
+        const float* const values = line + way * i;
+        for (int y = 0; y < rows; ++y) {
+          for (int part = 0; part < parts; ++part) {
+            sum[y][part] += each * *reinterpret_cast<const LooseFloats*>(values + y * stride + part * lanes);
+          }
+        }
+      }
+    }
+    for (int y = 0; y < rows; ++y) {
+      for (int part = 0; part < parts; ++part) {
+        LooseFloats& to = *reinterpret_cast<LooseFloats*>(sums + (first + y) * tile_side + part * lanes);
+        to += sign * sum[y][part];
+      }
+    }
+  }
+}
+
 }  // namespace
 
-const Kernel FOCALSTAGE_KERNEL{place, cover, weigh, lit, add_even, add_checker};
+const Kernel FOCALSTAGE_KERNEL{place, cover, weigh, lit, add_even, add_checker, spread};
 
 }  // namespace focalstage

@@ -117,8 +117,8 @@ void add(const FrameMeasure& row, FrameMeasure& sum) {
 
 Result<CompiledFrame> compile_reference(const Stage& stage, const CompileSettings& settings, int threads) {
   if (settings.slices.assignment == Assignment::optimal) {
-    return Fault{"compile.assignment", "/slices/assignment", "the assignment \"optimal\" is not available yet",
-                 "use \"linear\" or \"nearest\""};
+    return Fault{"compile.assignment", "/slices/assignment", "the naive reference has no assignment \"optimal\"",
+                 "compile without --reference, or use \"linear\" or \"nearest\""};
   }
   const Result<Samples> samples = Samples::of(stage, settings);
   if (!samples) return samples.fault();

@@ -35,20 +35,43 @@ Result<std::optional<FrameRange>> parse_range(const std::string& text) {
   return Fault{"frames.range", "--frames " + text, "this is no range", "write A:B, frames A to B-1, such as 0:60"};
 }
 
-void print_summary(const Options& options, const CompileReport& report, double seconds) {
+void print_summary(const Options& options, const CompileReport& report, bool optimal, double seconds) {
   std::printf("%s: %d %s of %zu images, %zu exposures a period, compiled in %s", options.show.c_str(), report.frames,
               report.frames == 1 ? "frame" : "frames", report.images, report.slots, duration_text(seconds).c_str());
   if (report.resumed > 0) std::printf(" (%d taken over)", report.resumed);
+  if (optimal) {
+    const OptimalMeasure both = report.optimal.left + report.optimal.right;
+    std::printf("\noptimal: %llu of %llu tiles near depth edges better by %.2f dB than linear",
+                static_cast<unsigned long long>(both.accepted_tiles), static_cast<unsigned long long>(both.tiles),
+                gain_db(both));
+  }
   std::printf("\n%s", findings_text(report.findings).c_str());
 }
 
-void print_report(const Options& options, const CompileReport& report) {
+Value optimal_value(const OptimalMeasure& measure) {
+  Value object;
+  object.set("tiles", static_cast<double>(measure.tiles));
+  object.set("accepted_tiles", static_cast<double>(measure.accepted_tiles));
+  object.set("left_tiles", static_cast<double>(measure.left_tiles));
+  object.set("linear_psnr_db", psnr_db(measure, measure.linear_error));
+  object.set("gain_db", gain_db(measure));
+  return object;
+}
+
+void print_report(const Options& options, const CompileReport& report, bool optimal) {
   Value object = findings_value(report.findings);
   object.set("show", options.show);
   object.set("frames", report.frames);
   object.set("resumed", report.resumed);
   object.set("images", static_cast<double>(report.images));
   object.set("slots", static_cast<double>(report.slots));
+  object.set("slowest_frame_ms", report.slowest_frame_ms);
+  if (optimal) {
+    Value eyes;
+    eyes.set("left", optimal_value(report.optimal.left));
+    eyes.set("right", optimal_value(report.optimal.right));
+    object.set("optimal", eyes);
+  }
   print_json(object);
 }
 
@@ -83,7 +106,8 @@ ExitStatus run(const Options& options) {
     return compiled.fault().code == "frames.range" ? ExitStatus::usage : status;
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  options.json ? print_report(options, *compiled) : print_summary(options, *compiled, seconds);
+  const bool optimal = source->project.slices.assignment == Assignment::optimal;
+  options.json ? print_report(options, *compiled, optimal) : print_summary(options, *compiled, optimal, seconds);
   return status_of(compiled->findings);
 }
 

@@ -1,5 +1,7 @@
 #include "editor/pipeline/compile_show.h"
 
+#include <algorithm>
+#include <chrono>
 #include <memory>
 #include <string>
 #include <utility>
@@ -89,8 +91,11 @@ Result<Measured> write_frames(const CompileJob& job, FrameRange range, FrameMake
     if (writer.has_frame(k)) {
       ++report.resumed;
     } else {
+      const auto begun = std::chrono::steady_clock::now();
       const auto made = maker.compile(stop);
       if (!made) return stop.stop_requested() ? cancelled(job) : made.fault();
+      const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begun;
+      report.slowest_frame_ms = std::max(report.slowest_frame_ms, took.count());
       if (Status added = sink.add(k, *made); !added) return added.fault();
     }
     measured.coverage.push_back(maker.coverage());
@@ -122,6 +127,9 @@ Result<CompileReport> compile_show(const Source& source, const CompileJob& job, 
   auto measured = write_frames(job, *range, maker, *writer, report, progress, stop);
   if (!measured) return measured.fault();
   measured->frames = writer->measures();
+  for (const FrameMeasure& frame : measured->frames) {
+    for (const Side side : both_sides) report.optimal[side] = report.optimal[side] + frame.optimal[side];
+  }
   if (Status finished = writer->finish(stop); !finished) {
     return stop.stop_requested() ? cancelled(job) : finished.fault();
   }

@@ -28,6 +28,8 @@ struct CompileReport {
   int resumed = 0;  ///< of those, taken over from an earlier run
   std::size_t images = 0;
   std::size_t slots = 0;
+  double slowest_frame_ms = 0.0;   ///< to compile, of those that were
+  PerEye<OptimalMeasure> optimal;  ///< over all frames
   std::vector<Finding> findings;
 };
 

@@ -19,6 +19,8 @@ CompileSettings SliceMaker::settings_of(const Project& project, Variant variant,
     settings.projector =
         resized(settings.projector, part(settings.projector.width_px), part(settings.projector.height_px));
     settings.slices.samples_per_pixel = 1;
+    // A drag is followed by linear filtering; what it leaves is solved at full size, when the hand rests.
+    if (settings.slices.assignment == Assignment::optimal) settings.slices.assignment = Assignment::linear;
   }
   return settings;
 }

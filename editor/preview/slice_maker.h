@@ -23,6 +23,7 @@ class SliceMaker {
   Result<CompiledFrame> make(const Project& project, const Stage& stage, Variant variant, int divisor,
                              std::stop_token stop);
 
+  /// Smaller sizes are for moving hands: one sample per pixel, and linear filtering for `optimal`.
   static CompileSettings settings_of(const Project& project, Variant variant, int divisor);
 
   /// The smallest of 1, 2 and 4 at which a compile probably takes no longer than `within_ms`.

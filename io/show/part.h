@@ -13,7 +13,7 @@
 
 namespace focalstage {
 
-inline constexpr std::uint32_t part_version = 1;
+inline constexpr std::uint32_t part_version = 2;
 
 /// Whose frames a part holds, and how many of what.
 struct PartKey {

@@ -51,6 +51,14 @@ void each_number(Measure& measure, Pass&& pass) {
   pass(measure.surface_pixels);
   pass(measure.defocused_pixels);
   pass(measure.worst_defocus_d);
+  for (auto* eye : {&measure.optimal.left, &measure.optimal.right}) {
+    pass(eye->tiles);
+    pass(eye->accepted_tiles);
+    pass(eye->left_tiles);
+    pass(eye->values);
+    pass(eye->linear_error);
+    pass(eye->optimal_error);
+  }
   for (auto& object : measure.objects) {
     pass(object.samples);
     pass(object.beyond);
@@ -61,7 +69,7 @@ void each_number(Measure& measure, Pass&& pass) {
 }
 
 std::size_t fixed_bytes(const PartKey& key) {
-  return 5 * 8 + key.objects * 5 * 8 + key.chunks_per_frame * sizeof(std::uint32_t);
+  return (5 + 2 * 6) * 8 + key.objects * 5 * 8 + key.chunks_per_frame * sizeof(std::uint32_t);
 }
 
 std::size_t largest_body(const PartKey& key) {

@@ -153,6 +153,35 @@ ShowHeader read_header(Hdf5In& in) {
   return header;
 }
 
+namespace {
+
+/// Shows of other assignments than `optimal` have none of it.
+void read_optimal(Hdf5In& in, std::vector<FrameMeasure>& measures) {
+  const std::vector<std::string> names = in.names("/measure");
+  if (std::find(names.begin(), names.end(), "optimal_tiles") == names.end()) return;
+  const Hdf5In::Shape shape{measures.size(), 2};
+  const auto tiles = in.numbers<std::uint64_t>("/measure/optimal_tiles", shape);
+  const auto accepted = in.numbers<std::uint64_t>("/measure/optimal_accepted_tiles", shape);
+  const auto left = in.numbers<std::uint64_t>("/measure/optimal_left_tiles", shape);
+  const auto values = in.numbers<std::uint64_t>("/measure/optimal_values", shape);
+  const auto linear = in.numbers<double>("/measure/optimal_linear_error", shape);
+  const auto optimal = in.numbers<double>("/measure/optimal_error", shape);
+  for (const auto* numbers : {&linear, &optimal}) {
+    const bool sums =
+        std::all_of(numbers->begin(), numbers->end(), [](double d) { return std::isfinite(d) && d >= 0.0; });
+    if (!sums) in.refuse("/measure", "it is no sum of squares");
+  }
+  if (!in.ok()) return;
+  for (std::size_t k = 0; k < measures.size(); ++k) {
+    for (const Side side : both_sides) {
+      const std::size_t at = 2 * k + index_of(side);
+      measures[k].optimal[side] = {tiles[at], accepted[at], left[at], values[at], linear[at], optimal[at]};
+    }
+  }
+}
+
+}  // namespace
+
 std::vector<FrameMeasure> read_measures(Hdf5In& in, const ShowHeader& header) {
   const std::size_t frames = static_cast<std::size_t>(header.frames);
   const std::size_t objects = header.poses.at(0).objects.size();
@@ -173,13 +202,14 @@ std::vector<FrameMeasure> read_measures(Hdf5In& in, const ShowHeader& header) {
   std::vector<FrameMeasure> measures;
   if (!in.ok()) return measures;
   for (std::size_t k = 0; k < frames; ++k) {
-    FrameMeasure measure{lit[k], clipped[k], surface[k], defocused[k], worst_defocus_d[k], {}};
+    FrameMeasure measure{lit[k], clipped[k], surface[k], defocused[k], worst_defocus_d[k], {}, {}};
     for (std::size_t i = 0; i < objects; ++i) {
       const std::size_t at = k * objects + i;
       measure.objects.push_back({i, samples[at], beyond[at], worst_beyond_d[at], worst_below_d[at], worst_above_d[at]});
     }
     measures.push_back(std::move(measure));
   }
+  read_optimal(in, measures);
   return measures;
 }
 

@@ -1,5 +1,6 @@
 #include "io/show/write_header.h"
 
+#include <algorithm>
 #include <map>
 #include <span>
 #include <string>
@@ -113,6 +114,28 @@ void write_cues(Hdf5Out& out, const ShowHeader& header) {
               column<std::int32_t>(header.cues, [](auto& cue) { return cue.frame; }));
 }
 
+/// Of the assignment `optimal` alone; other shows have no such datasets.
+void write_optimal(Hdf5Out& out, const std::vector<FrameMeasure>& measures) {
+  std::vector<OptimalMeasure> eyes;
+  for (const FrameMeasure& measure : measures) {
+    eyes.push_back(measure.optimal.left);
+    eyes.push_back(measure.optimal.right);
+  }
+  if (std::all_of(eyes.begin(), eyes.end(), [](auto& eye) { return eye == OptimalMeasure{}; })) return;
+  const auto counts = [&](const char* name, auto get) {
+    out.dataset(name, {measures.size(), 2}, column<std::uint64_t>(eyes, get));
+  };
+  const auto sums = [&](const char* name, auto get) {
+    out.dataset(name, {measures.size(), 2}, column<double>(eyes, get));
+  };
+  counts("/measure/optimal_tiles", [](auto& eye) { return eye.tiles; });
+  counts("/measure/optimal_accepted_tiles", [](auto& eye) { return eye.accepted_tiles; });
+  counts("/measure/optimal_left_tiles", [](auto& eye) { return eye.left_tiles; });
+  counts("/measure/optimal_values", [](auto& eye) { return eye.values; });
+  sums("/measure/optimal_linear_error", [](auto& eye) { return eye.linear_error; });
+  sums("/measure/optimal_error", [](auto& eye) { return eye.optimal_error; });
+}
+
 void write_measures(Hdf5Out& out, const std::vector<FrameMeasure>& measures) {
   const std::size_t frames = measures.size();
   const std::size_t objects = measures[0].objects.size();
@@ -136,6 +159,7 @@ void write_measures(Hdf5Out& out, const std::vector<FrameMeasure>& measures) {
               column<double>(rows, [](auto& o) { return o.worst_below_d; }));
   out.dataset("/measure/object_worst_above_d", {frames, objects},
               column<double>(rows, [](auto& o) { return o.worst_above_d; }));
+  write_optimal(out, measures);
 }
 
 }  // namespace

@@ -23,6 +23,33 @@ TEST_CASE("threads, instruction sets and repetition do not change a byte") {
   }
 }
 
+TEST_CASE("with the optimal assignment too, which is never worse than linear and changes little") {
+  int solved = 0;
+  for (std::uint64_t seed = 700; seed < 720; ++seed) {
+    RandomScene scene = random_scene(seed);
+    INFO(scene.story);
+    scene.settings.slices.assignment = Assignment::optimal;
+    Compiler one(scene.settings, 1, VectorPath::best);
+    Compiler two(scene.settings, 2, VectorPath::best);
+    Compiler portable(scene.settings, 2, VectorPath::portable);
+    for (const Stage& stage : scene.frames) {
+      const auto first = one.frame(stage);
+      REQUIRE(first);
+      const auto second = two.frame(stage);
+      CHECK(second->images.codes == first->images.codes);
+      CHECK(second->measure.optimal == first->measure.optimal);
+      CHECK(portable.frame(stage)->images.codes == first->images.codes);
+      for (const Side side : both_sides) {
+        const OptimalMeasure& measure = first->measure.optimal[side];
+        CHECK(measure.optimal_error <= measure.linear_error);
+        CHECK(measure.accepted_tiles <= measure.tiles);
+        solved += measure.accepted_tiles > 0 ? 1 : 0;
+      }
+    }
+  }
+  CHECK(solved > 5);
+}
+
 TEST_CASE("a frame does not depend on the frames before it") {
   int several = 0;
   for (std::uint64_t seed = 600; seed < 640; ++seed) {

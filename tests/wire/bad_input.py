@@ -181,6 +181,23 @@ def test_findings_are_no_failure_to_write():
         assert checked.status == FINDINGS and checked.json()["findings"] == ran.json()["findings"], checked
 
 
+def test_optimal_and_its_reference():
+    """What optimal gains is reported, also of frames that were taken over; the reference has none and says so."""
+    with folder() as at:
+        succeed("new", at / "card", "--from", "occlusion")
+        report = succeed("compile", at / "card", "-o", at / "card.h5", "--json").json()
+        assert report["slowest_frame_ms"] > 0
+        for eye in ("left", "right"):
+            measure = report["optimal"][eye]
+            assert measure["tiles"] >= measure["accepted_tiles"] > 50 and measure["left_tiles"] == 0, measure
+            assert measure["gain_db"] > 8 and 20 < measure["linear_psnr_db"] < 35, measure
+        refused = focalstage("compile", at / "card", "-o", at / "naive.h5", "--reference")
+        expect(refused, INVALID, "/slices/assignment", "optimal", "--reference")
+        assert sorted(p.name for p in at.iterdir()) in (["card", "card.h5"], ["card", "card.h5", "naive.h5.part"])
+        write_project(at / "plain", small_project(frames=1))
+        assert "optimal" not in succeed("compile", at / "plain", "-o", at / "plain.h5", "--json").json()
+
+
 def test_new_does_not_overwrite():
     with folder() as at:
         succeed("new", at / "a")

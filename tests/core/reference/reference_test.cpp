@@ -225,6 +225,7 @@ TEST_CASE("the rule that is not known is refused") {
   const auto frame = compile_reference(room(wide_at_40cm), settings);
   REQUIRE_FALSE(frame);
   CHECK(frame.fault().code == "compile.assignment");
+  CHECK(frame.fault().remedy.find("--reference") != std::string::npos);
 }
 
 TEST_CASE("an empty room is dark") {

@@ -99,6 +99,21 @@ TEST_CASE("smaller sizes show the same room") {
   CHECK(plain->images.count == 2);
 }
 
+TEST_CASE("the optimal assignment is solved at full size alone") {
+  auto project = std::make_shared<Project>(*a_project());
+  project->slices.assignment = Assignment::optimal;
+  using Variant = SliceMaker::Variant;
+  CHECK(SliceMaker::settings_of(*project, Variant::shown, 1).slices.assignment == Assignment::optimal);
+  CHECK(SliceMaker::settings_of(*project, Variant::shown, 2).slices.assignment == Assignment::linear);
+  project->slices.assignment = Assignment::nearest;
+  CHECK(SliceMaker::settings_of(*project, Variant::shown, 4).slices.assignment == Assignment::nearest);
+  project->slices.assignment = Assignment::optimal;
+  Preview preview([] {});
+  preview.want(wish_for(1, project));
+  REQUIRE(wait([&] { return preview.slices() && preview.slices()->divisor == 1 && !preview.busy(); }));
+  CHECK(preview.slices()->settings.slices.assignment == Assignment::optimal);
+}
+
 TEST_CASE("a pixel read is the reference's answer, weight by weight") {
   const auto project = a_project();
   Preview preview([] {});

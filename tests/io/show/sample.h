@@ -143,7 +143,8 @@ inline FrameImages images(const ShowHeader& header, int frame) {
 
 inline FrameMeasure measure(int frame) {
   const auto k = static_cast<std::uint64_t>(frame);
-  return {100 + k, 2, 300, 4 + k, 0.125 * frame, {{0, 50, 1, 0.3, 0.3, 0.2}, {1, 60 + k, 0, 0.01 * frame, 0, 0.01}}};
+  return {100 + k, 2, 300, 4 + k, 0.125 * frame, {{0, 50, 1, 0.3, 0.3, 0.2}, {1, 60 + k, 0, 0.01 * frame, 0, 0.01}},
+          {}};
 }
 
 inline bool same(const FrameMeasure& a, const FrameMeasure& b) {
@@ -153,6 +154,7 @@ inline bool same(const FrameMeasure& a, const FrameMeasure& b) {
   };
   return std::tie(a.lit_pixels, a.clipped_pixels, a.surface_pixels, a.defocused_pixels, a.worst_defocus_d) ==
              std::tie(b.lit_pixels, b.clipped_pixels, b.surface_pixels, b.defocused_pixels, b.worst_defocus_d) &&
+         a.optimal == b.optimal &&
          std::equal(a.objects.begin(), a.objects.end(), b.objects.begin(), b.objects.end(), same_object);
 }
 

@@ -156,6 +156,29 @@ TEST_CASE("a measure without every object is spread over the project's list") {
   CHECK(sample::same(ShowReader::open(folder / "a.h5")->measures()[0], expected));
 }
 
+TEST_CASE("what the optimal assignment gained stands in the show, and in no other show") {
+  const sample::Folder folder;
+  const ShowHeader header = sample::header(2, 20, 10, 1);
+  const auto write = [&](const char* name, bool optimal) {
+    Result<ShowWriter> writer = ShowWriter::start(folder / name, header, false, 1);
+    REQUIRE(writer.ok());
+    for (int k = 0; k < 2; ++k) {
+      FrameMeasure measure = sample::measure(k);
+      if (optimal && k == 1) measure.optimal = {{7, 6, 1, 4480, 12.5, 0.25}, {8, 8, 0, 5120, 13.5, 0.5}};
+      REQUIRE(writer->add_frame(k, sample::images(header, k), measure).ok());
+    }
+    REQUIRE(writer->finish().ok());
+    return ShowReader::open(folder / name)->measures();
+  };
+  const auto measures = write("optimal.h5", true);
+  CHECK(measures[0].optimal == PerEye<OptimalMeasure>{});
+  CHECK(measures[1].optimal.left == OptimalMeasure{7, 6, 1, 4480, 12.5, 0.25});
+  CHECK(measures[1].optimal.right == OptimalMeasure{8, 8, 0, 5120, 13.5, 0.5});
+  CHECK(write("linear.h5", false)[1].optimal == PerEye<OptimalMeasure>{});
+  CHECK(sample::bytes_of(folder / "optimal.h5").find("optimal_tiles") != std::string::npos);
+  CHECK(sample::bytes_of(folder / "linear.h5").find("optimal_tiles") == std::string::npos);
+}
+
 TEST_CASE("frames may come from several threads at once") {
   const sample::Folder folder;
   const ShowHeader header = sample::header(16, 100, 70, 1);
