@@ -154,7 +154,7 @@ Result<CheckReport> check_project(const Source& source, const EngineChoice& engi
     if (!made) return made.fault();
     measured.coverage.push_back(maker.coverage());
     if (looked_at_for_conflict(k, range->end)) {
-      if (Status seen = conflict.add(maker.stage(), *made->images, stop); !seen) return seen.fault();
+      if (Status seen = conflict.add(maker.staged(), *made->images, stop); !seen) return seen.fault();
     }
     measured.frames.push_back(std::move(made->measure));
     progress(k + 1, range->end);
@@ -177,7 +177,7 @@ Result<CheckReport> check_show(const Source& source, const ShowReader& show, con
     if (looked_at_for_conflict(k, header.frames)) {
       const auto images = show.frame(k);
       if (!images) return images.fault();
-      if (Status seen = conflict.add(maker.stage(), *images, stop); !seen) return seen.fault();
+      if (Status seen = conflict.add(maker.staged(), *images, stop); !seen) return seen.fault();
     }
     progress(k + 1, header.frames);
   }

@@ -35,7 +35,7 @@ class FrameMaker {
   /// Stands up frame `frame` of the project; the other calls are about it.
   Status stand_up(int frame);
 
-  const Stage& stage() const { return *stage_; }
+  const Stage& staged() const { return *stage_; }
 
   /// Measured beside whoever compiles the frame, unless one thread must do.
   const std::vector<ObjectCoverage>& coverage();
