@@ -7,8 +7,8 @@
 
 namespace focalstage {
 
-Measured measured(const SightFrame& sight, const glm::dvec3& a_m, const glm::dvec3& b_m) {
-  Measured between;
+MeasuredGap measured(const SightFrame& sight, const glm::dvec3& a_m, const glm::dvec3& b_m) {
+  MeasuredGap between;
   between.distance_m = glm::length(b_m - a_m);
   const double axial_a_m = sight.axial_m(a_m);
   const double axial_b_m = sight.axial_m(b_m);

@@ -170,7 +170,7 @@ void draw_measure(const RoomFrame& frame, const RoomHands& hands, RoomDrawing& d
   const glm::dvec3& b_m = hands.measure_m[1];
   drawing.line(a_m, b_m, theme::panel, 4.0);
   drawing.line(a_m, b_m, theme::accent, 2.0);
-  const Measured between = measured(frame.sight(), a_m, b_m);
+  const MeasuredGap between = measured(frame.sight(), a_m, b_m);
   std::string words = fixed_text(between.distance_m, 3) + " m";
   if (between.difference_d) words += "   " + fixed_text(std::abs(*between.difference_d), 2) + " D";
   words += "   " + fixed_text(between.angle_deg, 1) + "\u00b0";

@@ -65,7 +65,7 @@ TEST_CASE("what is dropped rests on what is below, not on itself") {
 TEST_CASE("a measure in metres, dioptres and degrees") {
   const SightFrame sight{Rigid{}, 0.015};
   // 0.4 m and 0.5 m from the lens centre, straight ahead: half a dioptre.
-  const Measured depth = measured(sight, {0, 0, -0.415}, {0, 0, -0.515});
+  const MeasuredGap depth = measured(sight, {0, 0, -0.415}, {0, 0, -0.515});
   CHECK(depth.distance_m == doctest::Approx(0.1));
   CHECK(*depth.difference_d == doctest::Approx(0.5));
   CHECK(depth.angle_deg == doctest::Approx(0.0));
