@@ -10,6 +10,7 @@
 #include "core/compile/coverage.h"
 #include "core/optics/image_plan.h"
 #include "core/schedule/schedule.h"
+#include "editor/pipeline/conflict_meter.h"
 #include "editor/pipeline/measure_needs.h"
 
 namespace focalstage {
@@ -25,6 +26,7 @@ Result<Measured> measure_frames(const Project& project, const Assets& assets, co
   const CompileSettings settings = compile_settings(project);
   Compiler compiler(settings);
   CoverageMeter meter(settings.projector, settings.lens_to_pupil_m, project.glasses.lens_aperture_mm / 1000.0);
+  ConflictMeter conflict(project, settings, make_schedule(project, settings.images).schedule);
   Measured measured;
   std::optional<Stage> before;
   FrameImages memory;
@@ -43,8 +45,14 @@ Result<Measured> measure_frames(const Project& project, const Assets& assets, co
       measured.coverage.push_back(meter.measure(*staged));
       before = std::move(*staged);
     }
+    if (looked_at_for_conflict(k, project.frames.count)) {
+      if (Status seen = conflict.add(*before, memory, stop); !seen) {
+        return stop.stop_requested() ? cancelled(project) : seen.fault();
+      }
+    }
     progress(k + 1, project.frames.count);
   }
+  measured.conflicts = conflict.conflicts();
   return measured;
 }
 

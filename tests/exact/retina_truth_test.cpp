@@ -96,6 +96,48 @@ TEST_CASE("the fast retina is within 2 % of the rays on every sample") {
   }
 }
 
+TEST_CASE(
+    "what is asked for beside the lens agrees, too: the eye's colours, diffraction, the projector's focus, the rim") {
+  const Shown shown = shown_frame(opened(FOCALSTAGE_SOURCE_DIR "/projects/slanted-checker"), 0);
+  RetinaInput input = shown.input(Side::left);
+  RetinaView view;
+  view.width_px = 200;
+  view.height_px = 150;
+  view.fov_deg = 10.0;
+  view.focus_d = 1.5;
+  const auto compared = [&](const std::string& what) {
+    const auto exact = see_by_rays(input, view, {160});
+    const auto fast = Retina().view(input, view);
+    REQUIRE(exact);
+    REQUIRE(fast);
+    const Apart off = apart(*fast, *exact);
+    MESSAGE(what << ": RMS " << 100.0 * off.rms << " % of the peak, light off by " << 100.0 * off.sum << " %");
+    CHECK(off.rms <= 0.02);
+    CHECK(std::abs(off.sum) <= 0.004);
+    return *fast;
+  };
+  const RetinaImage plain = compared("plain");
+  view.chromatic = true;
+  const RetinaImage coloured = compared("chromatic");
+  CHECK(apart(coloured, plain).rms > 0.02);
+  view.chromatic = false;
+  view.pupil_m = 0.0005;
+  view.diffraction = true;
+  const RetinaImage narrow = compared("diffraction at a pupil of 0.5 mm");
+  view.diffraction = false;
+  CHECK(apart(*Retina().view(input, view), narrow).rms > 0.005);
+  view.pupil_m = 0.004;
+  input.projector_focus = {1.0 / 1.6, 0.12};  // the screen, about 0.9 m away, lies 0.5 D off
+  const RetinaImage defocused = compared("projector out of focus");
+  CHECK(apart(defocused, plain).rms > 0.02);
+  input.projector_focus = {};
+  input.lens_aperture_m = 0.004;
+  view.fov_deg = 30.0;
+  view.focus_d = 2.0;
+  const RetinaImage rim = compared("a lens of 4 mm");
+  CHECK(apart(rim, plain).sum < -0.2);
+}
+
 TEST_CASE("off the axis the powers that pass in one exposure are told apart") {
   const Shown shown = shown_frame(opened(FOCALSTAGE_SOURCE_DIR "/projects/slanted-checker"), 0);
   RetinaInput input = shown.input(Side::left);
