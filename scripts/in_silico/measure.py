@@ -51,3 +51,13 @@ def missing_light(strip, columns_u, from_u, to_u):
     step = columns_u[1] - columns_u[0]
     inside = (columns_u > from_u) & (columns_u < to_u)
     return float((1.0 - strip.mean(axis=0)[inside]).sum() * step)
+
+
+def shift_between(picture, reference, fov_deg):
+    """By how many arc minutes `picture` lies beside `reference`: the shift (right, down) that explains most of their
+    difference, by least squares over the reference's gradients; good below the width of its edges."""
+    down, right = numpy.gradient(reference)
+    equations = numpy.stack([-right.ravel(), -down.ravel()], axis=1)
+    shift_px, *_ = numpy.linalg.lstsq(equations, (picture - reference).ravel(), rcond=None)
+    step = 2 * math.tan(math.radians(fov_deg / 2)) / reference.shape[1]
+    return shift_px * step * ARCMIN

@@ -43,14 +43,14 @@ class EyeLens:
 
 
 def projector_pixel(projector, world_m):
-    """Of a point, for a projector without distortion, as the project file describes it."""
+    """Of points [..., 3], for a projector without distortion, as the project file describes it."""
     x, y, z, w = projector["rotation_xyzw"]
     rotation = numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
                             [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
                             [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-    p = rotation.T @ (numpy.asarray(world_m) - projector["position_m"])
-    return numpy.array([projector["cx_px"] + projector["fx_px"] * p[0] / -p[2],
-                        projector["cy_px"] - projector["fy_px"] * p[1] / -p[2]])
+    p = (numpy.asarray(world_m) - projector["position_m"]) @ rotation  # by its transpose
+    return numpy.stack([projector["cx_px"] + projector["fx_px"] * p[..., 0] / -p[..., 2],
+                        projector["cy_px"] - projector["fy_px"] * p[..., 1] / -p[..., 2]], axis=-1)
 
 
 def turned_plane(centre_m, about_y_rad):
