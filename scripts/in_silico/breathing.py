@@ -14,6 +14,7 @@ MODES = ("off", "planar", "exact", "smooth")
 SAMPLES = {"smooth": 16}  # per projector pixel; "smooth" is exact, with edges that pixels do not round
 WORDS = {"smooth": "exact, 16 samples a pixel"}
 COLOURS = {"off": "#d55e00", "planar": "#e69f00", "exact": "#0072b2", "smooth": "#56b4e9"}
+DIM = ("objects", "checker", "appearance", {"checker": {"squares": [20, 4], "a": [0.45, 0.45, 0.45], "b": [0.02, 0.02, 0.02]}})
 MARGIN = 0.018  # looks to each side of a seam
 POWERS_D = (-1, -0.5, 0, 0.5, 1, 1.5)
 LIGHT = 0.4  # of the plane where seams are measured: doubled where slices overlap, it still is no more than white
@@ -107,16 +108,16 @@ def draw_seams(lab, results):
         axis.set_title(setup.words, fontsize=9)
         axis.axhline(0, color="k", lw=0.5)
     axes[0].set_ylabel("gap (+) or overlap (−)\n(projector pixels)")
-    axes[0].legend(fontsize=8)
+    axes[1].legend(fontsize=8, loc="lower right")
     lab.figure(figure, "breathing-seams")
 
 
 def draw_pictures(lab, camera):
     """What the camera sees, without and with compensation: the paper's figure."""
-    figure, axes = plt.subplots(2, 1, figsize=(8, 5.2), layout="constrained")
+    figure, axes = plt.subplots(2, 1, figsize=(7, 5.4), layout="constrained")
     for axis, mode in zip(axes, ("off", "exact")):
         show = lab.show(f"breathing-picture-{mode}", "slanted-checker",
-                        camera.edits + [("slices", "assignment", "nearest"), ("slices", "breathing", mode)])
+                        camera.edits + [DIM, ("slices", "assignment", "nearest"), ("slices", "breathing", mode)])
         picture, _ = lab.look(show, pupil_mm=0, size=(1600, 640), fov_deg=15)
         axis.imshow(gray(picture), cmap="gray", vmin=0, vmax=1, extent=(-7.5, 7.5, -3, 3))
         axis.set_title(f"breathing {mode}", fontsize=10)

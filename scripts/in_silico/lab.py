@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import subprocess
+import tempfile
 
 import matplotlib
 
@@ -43,6 +44,7 @@ class Lab:
         self.folder.mkdir(parents=True, exist_ok=True)
         bin_folder = pathlib.Path(os.environ.get("FOCALSTAGE_BIN", ROOT / "build/release/bin"))
         self.program = str(bin_folder.resolve() / "focalstage")
+        self.scratch = tempfile.TemporaryDirectory(prefix="look-", dir=self.folder)  # goes when the bench does
         self.tables, self.claims, self.figures = [], [], []
 
     def run(self, *arguments, also=()):
@@ -70,17 +72,19 @@ class Lab:
 
     def look(self, show, *, focus_m=0.5, pupil_mm=4, size=(800, 600), fov_deg=50, eye="left", frame=0):
         """(picture, what focalstage says of it): linear light, rows from the top."""
-        file = self.folder / "look.png"
+        file = pathlib.Path(self.scratch.name) / "look.png"
         told = self.run("retina", show, "--eye", eye, "--focus-m", focus_m, "--pupil-mm", pupil_mm, "--size",
                         f"{size[0]}x{size[1]}", "--fov-deg", fov_deg, "--frame", frame, "-o", file, "--json")
         return matplotlib.image.imread(file), json.loads(told)
 
-    def sweep(self, show, foci, *, pupil_mm=4, size=(800, 600), fov_deg=50, eye="left", frame=0, name=None):
-        """What `retina --sweep` says; `foci`: (from, to, count) in dioptres at the lens."""
+    def sweep(self, show, foci, *, pupil_mm=4, size=(800, 600), fov_deg=50, eye="left", frame=0):
+        """What `retina --sweep` says, and its pictures' `files`, there until the next sweep; `foci`: (from, to, count) in
+        dioptres at the lens."""
+        stack = pathlib.Path(self.scratch.name) / "stack"
         told = json.loads(self.run("retina", show, "--eye", eye, "--sweep", ":".join(map(str, foci)), "--pupil-mm", pupil_mm,
                                    "--size", f"{size[0]}x{size[1]}", "--fov-deg", fov_deg, "--frame", frame, "-o",
-                                   self.folder / (name or "stack"), "--json"))
-        told["files"] = [self.folder / (name or "stack") / picture for picture in told["pictures"]]
+                                   stack, "--json"))
+        told["files"] = [stack / picture for picture in told["pictures"]]
         return told
 
     def claim(self, text, holds, found):
@@ -89,6 +93,21 @@ class Lab:
 
     def table(self, name, head, rows):
         self.tables.append(Table(name, head, rows))
+
+    def keep(self, name):
+        """Writes what an experiment found into the folder, and forgets it: the page is made from the folder."""
+        found = {"quick": self.quick, "tables": [vars(table) for table in self.tables], "claims": [vars(claim) for claim in self.claims],
+                 "figures": [file.name for file in self.figures]}
+        (self.folder / f"{name}.json").write_text(json.dumps(found, indent=1))
+        self.tables, self.claims, self.figures = [], [], []
+
+    def kept(self, name):
+        """What a full run of the experiment found last."""
+        file = self.folder / f"{name}.json"
+        found = json.loads(file.read_text()) if file.exists() else {"quick": True}
+        if found["quick"]:
+            raise SystemExit(f"scripts/experiments: {file}: no full run of {name} yet; run scripts/experiments {name}")
+        return found
 
     def figure(self, figure, name):
         """Keeps a matplotlib figure as NAME.png."""

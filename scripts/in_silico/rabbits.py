@@ -11,7 +11,7 @@ LOOK = {"fov_deg": 44, "pupil_mm": 4}
 
 
 def draw_pictures(lab, pictures):
-    figure, axes = plt.subplots(1, 3, figsize=(9.5, 3.6), layout="constrained")
+    figure, axes = plt.subplots(1, 3, figsize=(9.5, 3.25), layout="constrained")
     for axis, (focus_m, picture) in zip(axes, pictures.items()):
         height, width = picture.shape
         axis.imshow(gray(picture[:, : int(0.78 * width)]), cmap="gray", vmin=0, vmax=1)
@@ -43,7 +43,7 @@ def run(lab):
     for focus_m in FOCI_M:
         pictures[focus_m], told_at[focus_m] = lab.look(show, focus_m=focus_m, size=size, **LOOK)
     foci = (0.5, 3.5, 13 if lab.quick else 31)
-    told = lab.sweep(show, foci, size=size, name="rabbits-stack", **LOOK)
+    told = lab.sweep(show, foci, size=size, **LOOK)
     rows, errors = [], {}
     own, sharpest = True, True
     for name, wanted_d in WANTED_D.items():
