@@ -42,7 +42,7 @@ def measure_frame(lab, show, frame, foci, size, split):
 
 def measure(lab, name, project, foci, frames, split):
     """{condition: {frame: measured}}"""
-    size = (600, 450) if lab.quick else (640, 480)
+    size = (600, 450) if lab.quick else (600, 450)
     shows = {"multifocal": lab.show(f"{name}-multifocal", project), "conventional": lab.show(f"{name}-conventional", project, CONVENTIONAL)}
     found = {condition: {k: measure_frame(lab, show, k, foci, size, split) for k in frames} for condition, show in shows.items()}
     return shows, found
@@ -75,7 +75,8 @@ def places(found, condition):
     return numpy.array([one[0] for one in found[condition].values()])
 
 
-def draw_path(lab, name, found, parts, wanted_d, seconds_per_frame, drift):
+def draw_path(lab, name, found, parts, wanted_d, drift_label, drift):
+    seconds_per_frame = 1 / 15  # both samples
     figure, axes = plt.subplots(1, 3, figsize=(10, 3.2), layout="constrained")
     for condition in COLOURS:
         for part in parts:
@@ -89,11 +90,13 @@ def draw_path(lab, name, found, parts, wanted_d, seconds_per_frame, drift):
     axes[1].set_ylim(0, 1.05)
     for label, (times, arcmin), colour in drift:
         axes[2].plot(times, arcmin, marker=".", label=label, color=colour)
-    axes[2].set_ylabel("arc minutes")
-    axes[2].legend(fontsize=7)
+    axes[2].set_ylabel(drift_label)
+    axes[2].legend(fontsize=7, loc="upper left")
+    axes[2].margins(y=0.45)
     for axis in axes:
         axis.set_xlabel("time (s)")
     axes[0].legend(fontsize=7)
+    axes[0].margins(y=0.2)
     lab.figure(figure, f"{name}-path")
 
 
@@ -135,8 +138,8 @@ def run_step(lab):
               moved < 1 and grown < 0.01, f"worst {moved:.2f} arcmin, {100 * grown:.2f} %")
     if not lab.quick:
         times = numpy.array(frames) / 15
-        draw_path(lab, "step", found, ("front", "back"), wanted_d, 1 / 15,
-                  [("centre across, against conventional", (times, apart[:, 0]), "#009e73"),
+        draw_path(lab, "step", found, ("front", "back"), wanted_d, "against conventional (arc minutes)",
+                  [("centre across", (times, apart[:, 0]), "#009e73"),
                    ("centre up", (times, apart[:, 1]), "#cc79a7"), ("width", (times, apart[:, 2]), "#56b4e9")])
         draw_pictures(lab, "step", shows, (0, 4, 8, 15), ("0 s", "0.27 s", "0.53 s", "1 s"),
                       (slice(180, 580), slice(370, 990)))
@@ -169,7 +172,7 @@ def run_moving(lab):
               f"{worst['multifocal', 'all'][1]:.2f} against {worst['conventional', 'all'][1]:.2f}")
     if not lab.quick:
         times = numpy.array(frames) / 15
-        draw_path(lab, "moving", found, ("all",), wanted_d, 1 / 15,
+        draw_path(lab, "moving", found, ("all",), wanted_d, "from the path's mean (arc minutes)",
                   [(f"{words}, {condition}", (times, drift[condition][:, i]), colour) for words, i, condition, colour in
                    (("drift across", 0, "multifocal", "#0072b2"), ("up", 1, "multifocal", "#56b4e9"),
                     ("across", 0, "conventional", "#d55e00"), ("up", 1, "conventional", "#e69f00"))])
