@@ -38,7 +38,7 @@ Value curve(const FocalSweep& sweep, std::size_t thing, double (*number)(const T
 Value thing_value(const FocalSweep& sweep, std::size_t i) {
   Value value;
   value.set("name", sweep.things[i].name);
-  value.set("kind", sweep.things[i].kind == Thing::Kind::object ? "object" : "surface");
+  value.set("kind", sweep.things[i].kind == SeenThing::Kind::object ? "object" : "surface");
   value.set("pixels", sweep.looks.front()[i].pixels);
   const std::optional<FocusPeak>& peak = sweep.peaks[i];
   value.set("peak_focus_d", peak ? Value(peak->focus_d) : Value());
@@ -85,7 +85,7 @@ std::string sweep_picture_name(const FocusRange& range, int i) {
 
 std::string contrast_csv(const FocalSweep& sweep) {
   std::string csv = "focus_d,focus_m";
-  for (const Thing& thing : sweep.things) {
+  for (const SeenThing& thing : sweep.things) {
     for (const char* what : {".sharpness", ".light", ".blur_radius_arcmin"}) csv += "," + csv_field(thing.name + what);
   }
   csv += "\n";
@@ -151,7 +151,7 @@ std::string sweep_text(const SweepRun& run, const RetinaView& view, const FocalS
   for (std::size_t i = 0; i < sweep.things.size(); ++i) {
     const std::optional<FocusPeak>& peak = sweep.peaks[i];
     any = any || peak.has_value();
-    rows.push_back({sweep.things[i].name, sweep.things[i].kind == Thing::Kind::object ? "object" : "surface",
+    rows.push_back({sweep.things[i].name, sweep.things[i].kind == SeenThing::Kind::object ? "object" : "surface",
                     std::to_string(sweep.looks.front()[i].pixels), peak ? number_text(peak->focus_d, 3) : "-",
                     peak && peak->focus_d > 0.0 ? number_text(1.0 / peak->focus_d, 3) : "-",
                     peak ? number_text(peak->sharpness, 2) : "-",

@@ -24,7 +24,7 @@ struct FocusRange {
 /// How everything looks at each focus of a range.
 struct FocalSweep {
   std::vector<double> focus_d;
-  std::vector<Thing> things;
+  std::vector<SeenThing> things;
   std::vector<std::vector<ThingLook>> looks;    ///< [focus][thing]
   std::vector<std::optional<FocusPeak>> peaks;  ///< of each thing's sharpness; none: it has no contrast
 };

@@ -26,8 +26,9 @@ ThingLook look_of(int pixels, double sharpness) {
 FocalSweep three_things() {
   FocalSweep sweep;
   sweep.focus_d = {0.0, 0.5, 1.0};
-  sweep.things = {
-      {Thing::Kind::object, "a, \"b\"", 0}, {Thing::Kind::surface, "even", 0}, {Thing::Kind::surface, "hidden", 1}};
+  sweep.things = {{SeenThing::Kind::object, "a, \"b\"", 0},
+                  {SeenThing::Kind::surface, "even", 0},
+                  {SeenThing::Kind::surface, "hidden", 1}};
   for (const double sharpness : {0.5, 0.9, 0.7})
     sweep.looks.push_back({look_of(10, sharpness), look_of(10, std::nan("")), look_of(0, 0.0)});
   for (std::size_t i = 0; i < 3; ++i) sweep.peaks.push_back(focus_peak(sweep.focus_d, sharpness_over(sweep, i)));
