@@ -25,6 +25,7 @@ focalstage_room(io/study        USES io/project io/json io/files core/study core
 focalstage_room(io/show         USES io/project io/assets io/files core/schedule core/compile core/stage
                                 PRIVATE_LIBS hdf5::hdf5 deflate::deflate TBB::tbb)
 focalstage_room(io/export       USES io/show io/image io/files      PRIVATE_LIBS TBB::tbb)
+focalstage_room(io/plot         USES core/base                     PRIVATE_LIBS cairo::cairo)
 focalstage_room(io/protocol     USES io/project io/assets io/json io/files core/check core/compile core/scene)
 
 # devices: the rig; drivers see only core
@@ -39,7 +40,7 @@ focalstage_room(editor/samples  USES io/files core/base)
 focalstage_room(editor/pipeline USES io/project io/assets io/show core/check core/reference core/compile core/percept core/retina
                                      core/schedule)
 focalstage_room(editor/trials   USES editor/pipeline io/study io/protocol io/show io/project core/study)
-focalstage_room(editor/cli      USES editor/samples editor/pipeline editor/trials io/study io/project io/assets io/show io/export io/protocol
+focalstage_room(editor/cli      USES editor/samples editor/pipeline editor/trials io/study io/project io/assets io/show io/export io/plot io/protocol
                                      core/check core/reference core/compile core/percept core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
 focalstage_room(editor/document USES editor/samples io/journal io/project io/assets io/files core/scene)

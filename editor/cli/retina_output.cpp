@@ -95,6 +95,14 @@ std::string retina_text(const RetinaRun& run, const RetinaView& view, const Reti
                            rows);
 }
 
+std::vector<std::uint16_t> levels_of(const RetinaImage& image, int channels) {
+  std::vector<std::uint16_t> levels;
+  for (std::size_t i = 0; i < image.rgb.size(); i += channels == 3 ? 1 : 3) {
+    levels.push_back(static_cast<std::uint16_t>(std::lround(65535.0f * std::clamp(image.rgb[i], 0.0f, 1.0f))));
+  }
+  return levels;
+}
+
 std::vector<std::uint8_t> conflict_colours(const std::vector<float>& conflict_d) {
   std::vector<std::uint8_t> rgb(3 * conflict_d.size(), 0);
   for (std::size_t i = 0; i < conflict_d.size(); ++i) {

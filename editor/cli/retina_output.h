@@ -26,6 +26,9 @@ Value retina_value(const RetinaRun& run, const RetinaView& view, const RetinaInp
 std::string retina_text(const RetinaRun& run, const RetinaView& view, const RetinaInput& input,
                         const RetinaReport& report);
 
+/// Linear light for a 16-bit picture, 65535 = full code; one channel of a gray show.
+std::vector<std::uint16_t> levels_of(const RetinaImage& image, int channels);
+
 /// 8-bit RGB by `conflict_colour`; black where nothing is lit.
 std::vector<std::uint8_t> conflict_colours(const std::vector<float>& conflict_d);
 

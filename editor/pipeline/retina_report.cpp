@@ -21,16 +21,20 @@ Result<double> leaked_share(const RetinaInput& input, const RetinaView& view, do
 
 }  // namespace
 
+RetinaView pinhole_of(const RetinaView& view) {
+  RetinaView sharp = view;
+  sharp.pupil_m = 0.0;
+  sharp.diffraction = sharp.chromatic = false;
+  return sharp;
+}
+
 Result<RetinaReport> report_on(Retina& retina, const RetinaInput& input, const RetinaView& view,
                                const ProjectorFlux& flux, std::stop_token stop) {
   auto picture = retina.view(input, view, stop);
   if (!picture) return picture.fault();
   const auto focus = retina.driven_focus(input, view, stop);
   if (!focus) return focus.fault();
-  RetinaView sharp = view;
-  sharp.pupil_m = 0.0;
-  sharp.diffraction = sharp.chromatic = false;
-  const auto pinhole = retina.view(input, sharp, stop);
+  const auto pinhole = retina.view(input, pinhole_of(view), stop);
   if (!pinhole) return pinhole.fault();
   const auto leaked = leaked_share(input, view, sum_of(*picture), stop);
   if (!leaked) return leaked.fault();

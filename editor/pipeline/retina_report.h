@@ -20,6 +20,9 @@ struct RetinaReport {
   double leaked = 0.0;                   ///< share of the picture's light that was meant for the other eye
 };
 
+/// The same look through a pinhole of an ideal eye: what sharp would be.
+RetinaView pinhole_of(const RetinaView& view);
+
 /// Looks once as `view` says, once through a pinhole pupil to know what sharp would be. `retina` keeps what does not
 /// change from one look to the next. Faults: those of Retina.
 Result<RetinaReport> report_on(Retina& retina, const RetinaInput& input, const RetinaView& view,

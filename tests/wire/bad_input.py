@@ -21,6 +21,15 @@ def test_usage():
     expect(focalstage("retina", "x", "--eye", "left", "--focus-m", "0", "-o", "y"), USAGE, "focus-m")
     expect(focalstage("retina", "x", "--eye", "left", "--focus-m", "1", "-o", "y", "--size", "9"), USAGE, "9", "WxH")
     expect(focalstage("retina", "x", "--eye", "left", "--focus-m", "nan", "-o", "y"), USAGE, "focus-m")
+    look = ("retina", "x", "--eye", "left")
+    expect(focalstage(*look, "-o", "y"), USAGE, "--focus-m", "--sweep")
+    expect(focalstage(*look, "-o", "y", "--focus-m", "1", "--sweep", "1:2:3"), USAGE, "--sweep")
+    for text, word in (("1:2", "range"), ("1:2:3:4", "range"), ("1:2:three", "range"), ("", "FROM:TO:COUNT"), ("2:1:3", "below"),
+                       ("1:1:3", "below"), ("1:2:1", "2 to 1000"), ("1:2:1001", "2 to 1000"), ("nan:2:3", "focuses"),
+                       ("1:nan:3", "focuses"), ("-1:2:3", "focuses"), ("1:inf:3", "focuses"), ("1:2:99999999999", "range")):
+        expect(focalstage(*look, "-o", "y", "--sweep=" + text), USAGE, word)
+    expect(focalstage(*look, "-o", "y", "--sweep", "1:2:3", "--rays", "4"), USAGE, "--rays")
+    expect(focalstage(*look, "-o", __file__, "--sweep", "1:2:3"), USAGE, "bad_input.py", "folder")
     expect(focalstage("rig", "dance"), USAGE, "dance")
     expect(focalstage("rig", "cue"), USAGE, "NAME")
     expect(focalstage("new", "/tmp/never-made", "--from", "nothing"), USAGE, "nothing", "three-rabbits")
@@ -33,6 +42,8 @@ def test_missing_files():
         expect(focalstage("check", at / "none.h5"), INVALID, "none.h5")
         expect(focalstage("export", at / "none.h5", "-o", at / "x"), INVALID, "none.h5")
         expect(focalstage("retina", at / "none.h5", "--eye", "left", "--focus-m", "1", "-o", at / "x.png"), INVALID, "none.h5")
+        expect(focalstage("retina", at / "none.h5", "--eye", "left", "--sweep", "1:2:3", "-o", at / "x"), INVALID, "none.h5")
+        assert not (at / "x").exists()
         expect(focalstage("import", at / "none.glb"), INVALID, "none.glb")
         expect(focalstage("apply", at / "none", at / "e.jsonl"), INVALID, "none")
         expect(focalstage("edit"), ENVIRONMENT, "focalstage-editor")

@@ -1,0 +1,1 @@
+"""The paper's experiments, computed: what `scripts/experiments` runs."""
