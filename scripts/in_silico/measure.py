@@ -37,12 +37,20 @@ def sharpness(picture, pinhole, mask):
 
 
 def peak(foci_d, values):
-    """The top of the parabola through the highest value and its neighbours; None at an end."""
-    i = int(numpy.argmax(values))
-    if i == 0 or i == len(values) - 1:
+    """As focalstage's: the top of the parabola through the highest value and its neighbours, a level top (blur below a
+    pixel) counting as one value in its middle; None at an end."""
+    foci_d, values = numpy.asarray(foci_d), numpy.asarray(values)
+    first = last = int(numpy.argmax(values))
+    while first > 0 and values[first - 1] >= values.max() * (1 - 5e-4):
+        first -= 1
+    while last + 1 < len(values) and values[last + 1] >= values.max() * (1 - 5e-4):
+        last += 1
+    if first == 0 or last + 1 == len(values):
         return None
-    a, b, _ = numpy.polyfit(numpy.array(foci_d[i - 1:i + 2]) - foci_d[i], values[i - 1:i + 2], 2)
-    return foci_d[i] - b / (2 * a)
+    middle_d = (foci_d[first] + foci_d[last]) / 2
+    a, b, _ = numpy.polyfit([foci_d[first - 1] - middle_d, 0, foci_d[last + 1] - middle_d],
+                            [values[first - 1], values.max(), values[last + 1]], 2)
+    return middle_d - b / (2 * a)
 
 
 def missing_light(strip, columns_u, from_u, to_u):

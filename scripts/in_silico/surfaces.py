@@ -42,7 +42,7 @@ def measure_frame(lab, show, frame, foci, size, split):
 
 def measure(lab, name, project, foci, frames, split):
     """{condition: {frame: measured}}"""
-    size = (600, 450) if lab.quick else (600, 450)
+    size = (600, 450) if lab.quick else (800, 600)
     shows = {"multifocal": lab.show(f"{name}-multifocal", project), "conventional": lab.show(f"{name}-conventional", project, CONVENTIONAL)}
     found = {condition: {k: measure_frame(lab, show, k, foci, size, split) for k in frames} for condition, show in shows.items()}
     return shows, found
@@ -92,7 +92,7 @@ def draw_path(lab, name, found, parts, wanted_d, drift_label, drift):
         axes[2].plot(times, arcmin, marker=".", label=label, color=colour)
     axes[2].set_ylabel(drift_label)
     axes[2].legend(fontsize=7, loc="upper left")
-    axes[2].margins(y=0.45)
+    axes[2].margins(y=0.8)
     for axis in axes:
         axis.set_xlabel("time (s)")
     axes[0].legend(fontsize=7)
@@ -116,7 +116,7 @@ def draw_pictures(lab, name, shows, frames, titles, crop):
 def run_step(lab):
     frames = (0, 11) if lab.quick else range(30)
     wanted_d = 1 / 0.45
-    shows, found = measure(lab, "step", "step-teapot", (0.9, 2.9, 11 if lab.quick else 15), frames, True)
+    shows, found = measure(lab, "step", "step-teapot", (0.9, 2.9, 11 if lab.quick else 21), frames, True)
     rows, worst = focus_rows(found, ("front", "back"), wanted_d)
     lab.table("step-focus", FOCUS_HEAD, rows)
     apart = (places(found, "multifocal") - places(found, "conventional")) * 60
@@ -148,7 +148,7 @@ def run_step(lab):
 def run_moving(lab):
     frames = (0, 4, 8, 15) if lab.quick else range(30)
     wanted_d = 1 / 0.45
-    shows, found = measure(lab, "moving", "moving-plane", (1.4, 3.6, 12 if lab.quick else 16), frames, False)
+    shows, found = measure(lab, "moving", "moving-plane", (1.4, 3.6, 12 if lab.quick else 23), frames, False)
     rows, worst = focus_rows(found, ("all",), wanted_d)
     lab.table("moving-focus", FOCUS_HEAD, rows)
     drift = {condition: (places(found, condition) - places(found, condition).mean(axis=0)) * 60 for condition in COLOURS}
