@@ -19,7 +19,9 @@
 namespace focalstage {
 namespace {
 
-constexpr int least_margin_px = 8;
+/// Margins are multiples of what the widest blur is shrunk by, so that the picture does not depend on how wide a margin
+/// an earlier one needed.
+constexpr int least_margin_px = 16;
 
 const Fault cancelled{"retina.cancelled", "", "stopped before the picture was done", ""};
 

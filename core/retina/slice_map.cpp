@@ -17,11 +17,11 @@ struct Footprint {
 };
 
 /// Of every fourth look along a row.
-Footprint footprint_of_row(const SurfaceRaster& raster, const std::vector<SliceSpot>& spots, int row) {
+Footprint footprint_of_row(const SurfaceRaster& raster, const std::vector<SliceSpot>& spots, int row, int margin_px) {
   Footprint sum;
   const auto width = static_cast<std::size_t>(raster.grid.width_px);
   const SliceSpot* own = &spots[static_cast<std::size_t>(row) * width];
-  for (int column = 0; column + 1 < raster.grid.width_px; column += 4) {
+  for (int column = margin_px; column + margin_px + 1 < raster.grid.width_px; column += 4) {
     const SliceSpot &a = own[column], &b = own[column + 1], &c = own[static_cast<std::size_t>(column) + width];
     if (!a.lit() || !b.lit() || !c.lit()) continue;
     const std::uint32_t face = raster.at(column, row);
@@ -33,7 +33,7 @@ Footprint footprint_of_row(const SurfaceRaster& raster, const std::vector<SliceS
   return sum;
 }
 
-void measure(const SurfaceRaster& raster, SliceMap& map) {
+void measure(const SurfaceRaster& raster, int margin_px, SliceMap& map) {
   const auto include = [&](const SliceSpot& spot) {
     if (!spot.lit()) return;
     map.lowest_vergence_d = map.any ? std::min(map.lowest_vergence_d, spot.vergence_d) : spot.vergence_d;
@@ -48,8 +48,8 @@ void measure(const SurfaceRaster& raster, SliceMap& map) {
     }
   }
   Footprint sum;
-  for (int row = 0; row + 1 < map.grid.height_px; row += 4) {
-    const Footprint one = footprint_of_row(raster, map.spots, row);
+  for (int row = margin_px; row + margin_px + 1 < map.grid.height_px; row += 4) {
+    const Footprint one = footprint_of_row(raster, map.spots, row, margin_px);
     sum.apart_px += one.apart_px;
     sum.count += one.count;
   }
@@ -83,7 +83,7 @@ SliceMap slice_map(const SliceScene& scene, const SliceEye& eye, const LookGrid&
   });
   map.edges.resize(static_cast<std::size_t>(grid.height_px));
   for (std::size_t i = 0; i < edges.size(); ++i) map.edges[static_cast<std::size_t>(edges[i].row)].push_back(parts[i]);
-  measure(raster, map);
+  measure(raster, scene.margin_px, map);
   return map;
 }
 

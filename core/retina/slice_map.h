@@ -54,6 +54,7 @@ struct SliceScene {
   const ProjectorLight& light;
   ProjectorFocus focus;
   double widest_off_axis_m = 0.0;
+  int margin_px = 0;  ///< of the grid, around the picture: what is measured of looks is measured in the picture
 };
 
 /// Unfinished after a stop request.

@@ -96,7 +96,7 @@ std::vector<const SliceMap*> SliceMaps::of(const RetinaInput& input, const Retin
       all.push_back(map);
       continue;
     }
-    const SliceScene scene{mesh_, *light_, viewpoint.projector_focus, viewpoint.widest_off_axis_m};
+    const SliceScene scene{mesh_, *light_, viewpoint.projector_focus, viewpoint.widest_off_axis_m, margin_px};
     auto made = std::make_unique<SliceMap>(slice_map(scene, slice_eye(eye, power_d), grid, stop));
     if (stop.stop_requested()) return {};
     maps_.push_back(std::move(made));

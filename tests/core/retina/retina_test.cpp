@@ -358,6 +358,19 @@ TEST_CASE("the picture does not depend on threads or on what was kept") {
   CHECK(elsewhere->rgb == Retina(1).view(other, {})->rgb);
 }
 
+TEST_CASE("a picture is the same after wide blurs as alone") {
+  const Slanted scene(Breathing::exact, {30, 30});
+  const RetinaInput input = input_of(scene.stage, scene.settings, scene.frame, Side::left);
+  RetinaView view;
+  view.pupil_m = 0.006;
+  Retina kept;
+  for (const double focus_d : {6.0, 0.0, 2.5, 9.0, 2.0, 2.1}) {
+    view.focus_d = focus_d;
+    INFO("focus " << focus_d);
+    CHECK(kept.view(input, view)->rgb == Retina().view(input, view)->rgb);
+  }
+}
+
 TEST_CASE("what means nothing is refused") {
   const Stage stage = screen_stage();
   const ProjectorModel projector = projector_at({0.0, 0.1, 0.0}, 900.0, 64, 48);
