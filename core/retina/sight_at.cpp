@@ -13,14 +13,9 @@ struct Pixel {
   int column, row;
 };
 
-const SliceSpot& spot_in(const SliceMap& map, Pixel pixel) {
-  return map.spots[static_cast<std::size_t>(pixel.row) * static_cast<std::size_t>(map.grid.width_px) +
-                   static_cast<std::size_t>(pixel.column)];
-}
-
 /// The spot of the surface that is seen in a pixel, and its place in the world.
 RetinaSight sight_of(const SliceMap& map, Pixel pixel, const Eye& eye) {
-  const double vergence_d = vergence_at_lens_d(spot_in(map, pixel).vergence_d, eye.lens_to_pupil_m);
+  const double vergence_d = vergence_at_lens_d(map.spot(pixel.column, pixel.row).vergence_d, eye.lens_to_pupil_m);
   const double surface_m = 1.0 / (vergence_d + map.power_d);
   const double narrowing = 1.0 - map.power_d * eye.lens_to_pupil_m;
   const glm::dvec2 aside = map.grid.look(pixel.column, pixel.row) * (eye.lens_to_pupil_m + surface_m * narrowing);
@@ -31,12 +26,6 @@ RetinaSight sight_of(const SliceMap& map, Pixel pixel, const Eye& eye) {
   return sight;
 }
 
-double luminance_of(const SliceLight& light, const SliceSpot& spot) {
-  if (light.channels == 1) return LightSampler<1>(light).at(spot.x_px, spot.y_px)[0];
-  const std::array<float, 3> rgb = LightSampler<3>(light).at(spot.x_px, spot.y_px);
-  return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
-}
-
 /// What several exposures and pixels show together.
 struct Mean {
   double luminance = 0.0;
@@ -45,9 +34,9 @@ struct Mean {
   RetinaSight brightest;
 
   void add(const SeenPass& pass, Pixel pixel, const Eye& eye) {
-    const SliceSpot& spot = spot_in(*pass.map, pixel);
+    const SliceSpot& spot = pass.map->spot(pixel.column, pixel.row);
     if (!spot.lit()) return;
-    const double own = pass.share * luminance_of(*pass.light, spot);
+    const double own = pass.share * luminance_at(*pass.light, spot.x_px, spot.y_px);
     luminance += own;
     vergence_d += own * vergence_at_lens_d(spot.vergence_d, eye.lens_to_pupil_m);
     if (own <= most) return;
@@ -73,7 +62,7 @@ std::optional<RetinaSight> sight_at(const std::vector<SeenPass>& passes, const S
     mean.brightest.lit = true;
     return mean.brightest;
   }
-  if (!spot_in(bare, {column, row}).seen()) return std::nullopt;
+  if (!bare.spot(column, row).seen()) return std::nullopt;
   return sight_of(bare, {column, row}, eye);
 }
 

@@ -46,6 +46,11 @@ struct SliceMap {
   float most_spread_px = 0.0f;
   glm::dvec2 seen_px{1.0};  ///< sides of the rectangle of the projector's image that a pixel of the grid sees
   bool any = false;         ///< lit spot
+
+  const SliceSpot& spot(int column, int row) const {
+    return spots[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width_px) +
+                 static_cast<std::size_t>(column)];
+  }
 };
 
 /// What looks through one power: the surfaces, the projector, and how far off the lens' centre a look may pass.
