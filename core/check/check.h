@@ -7,20 +7,13 @@
 #include "core/compile/coverage.h"
 #include "core/compile/frame.h"
 #include "core/optics/needs.h"
+#include "core/percept/conflict_meter.h"
 #include "core/scene/finding.h"
 #include "core/scene/project.h"
 #include "core/schedule/projector_models.h"
 #include "core/schedule/schedule.h"
 
 namespace focalstage {
-
-/// How far vergence and accommodation part over one object, by its light, both eyes and all frames looked at.
-struct ObjectConflict {
-  std::size_t index = 0;        ///< in the project's list
-  double mean_d = 0.0;          ///< positive: the show lets the eyes focus further away than they converge
-  double worst_d = 0.0;         ///< what 95 % of the light of one look stays below, in size
-  double beyond_comfort = 0.0;  ///< share of its light beyond half a dioptre
-};
 
 /// What was measured of a project's frames, as far as it was.
 struct Measured {

@@ -102,6 +102,25 @@ void check_coverage(const Project& project, const Measured& measured, std::vecto
   }
 }
 
+/// An object that no frame shows: behind the viewer, or wholly behind another. Only where all frames were measured.
+void check_unseen(const Project& project, const Measured& measured, std::vector<Finding>& findings) {
+  if (measured.coverage.size() != static_cast<std::size_t>(std::max(1, project.frames.count))) return;
+  std::map<std::size_t, std::uint64_t> looks;  // by object
+  for (const std::vector<ObjectCoverage>& frame : measured.coverage) {
+    for (const ObjectCoverage& object : frame) looks[object.index] += object.looks;
+  }
+  for (const auto& [index, count] : looks) {
+    if (count > 0) continue;
+    findings.push_back({Severity::warning,
+                        "view.unseen",
+                        item_pointer("objects", index),
+                        "object " + name_of(project, index) +
+                            " is never seen: it stands behind the viewer or wholly behind another object",
+                        Amount{0.0, 1.0, "looks"},
+                        {}});
+  }
+}
+
 /// What eyes that converge on a thing and focus elsewhere soon tire of.
 void check_conflicts(const Project& project, const Measured& measured, std::vector<Finding>& findings) {
   for (const ObjectConflict& conflict : measured.conflicts) {
@@ -149,6 +168,7 @@ std::vector<Finding> view_findings(const Project& project, const Measured& measu
   check_slice_indices(project, findings);
   check_coverage(project, measured, findings);
   check_light(project, measured, findings);
+  check_unseen(project, measured, findings);
   check_conflicts(project, measured, findings);
   return findings;
 }

@@ -8,8 +8,8 @@
 
 #include "core/check/check.h"
 #include "core/optics/image_plan.h"
+#include "core/percept/conflict_meter.h"
 #include "core/schedule/schedule.h"
-#include "editor/pipeline/conflict_meter.h"
 #include "editor/pipeline/frame_queue.h"
 #include "editor/pipeline/measure_needs.h"
 #include "io/show/writer.h"

@@ -9,8 +9,8 @@
 #include "core/compile/compile.h"
 #include "core/compile/coverage.h"
 #include "core/optics/image_plan.h"
+#include "core/percept/conflict_meter.h"
 #include "core/schedule/schedule.h"
-#include "editor/pipeline/conflict_meter.h"
 #include "editor/pipeline/measure_needs.h"
 
 namespace focalstage {

@@ -12,6 +12,7 @@
 #include "core/compile/compile.h"
 #include "core/compile/coverage.h"
 #include "core/optics/image_plan.h"
+#include "core/percept/conflict_meter.h"
 #include "core/schedule/schedule.h"
 #include "core/stage/stage.h"
 #include "io/project/project_file.h"
@@ -33,6 +34,8 @@ std::vector<Finding> findings_of(const Project& project) {
   const CompileSettings settings = compile_settings(project);
   Compiler compiler(settings, 1);
   CoverageMeter meter(settings.projector, settings.lens_to_pupil_m, project.glasses.lens_aperture_mm / 1000.0);
+  const Schedule schedule = make_schedule(project, settings.images).schedule;
+  ConflictMeter conflict(project, settings, schedule);
   Measured measured;
   for (int frame = 0; frame < project.frames.count; ++frame) {
     const Result<Stage> staged = stage(project, Assets{}, frame / project.frames.rate_hz);
@@ -41,7 +44,9 @@ std::vector<Finding> findings_of(const Project& project) {
     REQUIRE(compiled.ok());
     measured.frames.push_back(compiled->measure);
     measured.coverage.push_back(meter.measure(*staged));
+    REQUIRE(conflict.add(*staged, compiled->images, {}));
   }
+  measured.conflicts = conflict.conflicts();
   return check(project, make_schedule(project, settings.images), measured);
 }
 
@@ -102,6 +107,8 @@ TEST_CASE("safety.flicker") { check_code("safety.flicker", Severity::warning, tr
 TEST_CASE("view.outside-projector") { check_code("view.outside-projector", Severity::warning, false); }
 TEST_CASE("view.off-surface") { check_code("view.off-surface", Severity::warning, false); }
 TEST_CASE("view.outside-lens") { check_code("view.outside-lens", Severity::warning, false); }
+TEST_CASE("view.unseen") { check_code("view.unseen", Severity::warning, false); }
+TEST_CASE("view.conflict") { check_code("view.conflict", Severity::warning, true); }
 TEST_CASE("light.clipped") { check_code("light.clipped", Severity::warning, false); }
 TEST_CASE("projector.defocus") { check_code("projector.defocus", Severity::warning, false); }
 
@@ -122,12 +129,26 @@ TEST_CASE("rig.differs") {
 }
 
 TEST_CASE("every project here belongs to a test, and every code of the design to a project") {
-  const std::set<std::string> expected{
-      "slices.spacing",     "slices.outside-sweep", "schedule.hidden-by-shutter", "schedule.overlap",
-      "schedule.smear",     "schedule.bit-depth",   "schedule.no-zero-crossing",  "optics.lens-range",
-      "depth.out-of-range", "frames.rate",          "view.outside-projector",     "view.off-surface",
-      "view.outside-lens",  "light.clipped",        "projector.defocus",          "safety.flicker",
-      "rig.differs",        "optics.lens-current"};
+  const std::set<std::string> expected{"slices.spacing",
+                                       "slices.outside-sweep",
+                                       "schedule.hidden-by-shutter",
+                                       "schedule.overlap",
+                                       "schedule.smear",
+                                       "schedule.bit-depth",
+                                       "schedule.no-zero-crossing",
+                                       "optics.lens-range",
+                                       "depth.out-of-range",
+                                       "frames.rate",
+                                       "view.outside-projector",
+                                       "view.off-surface",
+                                       "view.outside-lens",
+                                       "light.clipped",
+                                       "projector.defocus",
+                                       "safety.flicker",
+                                       "rig.differs",
+                                       "optics.lens-current",
+                                       "view.unseen",
+                                       "view.conflict"};
   std::set<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.is_directory()) found.insert(entry.path().filename().string());

@@ -3,7 +3,6 @@
 #include <stop_token>
 #include <vector>
 
-#include "core/check/check.h"
 #include "core/compile/frame.h"
 #include "core/percept/seen_frame.h"
 #include "core/retina/retina.h"
@@ -11,6 +10,14 @@
 #include "core/stage/stage.h"
 
 namespace focalstage {
+
+/// How far vergence and accommodation part over one object, by its light, both eyes and all frames looked at.
+struct ObjectConflict {
+  std::size_t index = 0;        ///< in the project's list
+  double mean_d = 0.0;          ///< positive: the show lets the eyes focus further away than they converge
+  double worst_d = 0.0;         ///< what 95 % of the light of one look stays below, in size
+  double beyond_comfort = 0.0;  ///< share of its light beyond half a dioptre
+};
 
 /// Which of `frames` frames are looked at for conflict: all of a few, else so many spread evenly, first and last among
 /// them. A look takes two retinas; a show of minutes would take longer to look at than to compile.

@@ -1,4 +1,4 @@
-#include "editor/pipeline/conflict_meter.h"
+#include "core/percept/conflict_meter.h"
 
 #include <cmath>
 #include <utility>
