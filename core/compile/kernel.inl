@@ -228,8 +228,12 @@ void add_even(const TileWeights& weights, float share, float level, float* light
   }
 }
 
-/// The largest whole number not above each value; values are within an int.
-HalfInts whole(Doubles value) {
+/// The largest whole number not above each value. What lies beyond a thousand million, or is no number, belongs to looks
+/// that meet nothing: it becomes any number that an int holds.
+HalfInts whole(Doubles any) {
+  const Doubles most = Doubles{} + 1e9;
+  const Doubles below = any < most ? any : most;
+  const Doubles value = below > -most ? below : -most;
   const HalfInts towards_zero = __builtin_convertvector(value, HalfInts);
   return towards_zero + __builtin_convertvector(value < __builtin_convertvector(towards_zero, Doubles), HalfInts);
 }
@@ -244,7 +248,7 @@ void add_checker(const CheckerPlanes& planes, const TileLooks& looks, double ori
     const Doubles per = 1.0 / (planes.common[0] * x + planes.common[1] * y + planes.common[2]);
     const HalfInts column = whole((planes.u[0] * x + planes.u[1] * y + planes.u[2]) * per);
     const HalfInts row = whole((planes.v[0] * x + planes.v[1] * y + planes.v[2]) * per);
-    const HalfInts odd = ((column + row) & 1) != 0;
+    const HalfInts odd = ((column ^ row) & 1) != 0;
     const HalfFloats weight = *reinterpret_cast<const HalfFloats*>(weights.weight + first);
     const HalfFloats level = odd ? HalfFloats{} + b : HalfFloats{} + a;
     const HalfFloats added =
