@@ -1,6 +1,7 @@
 #include "devices/natnet/packets.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string_view>
 
@@ -82,6 +83,7 @@ std::vector<NatNetBody> read_bodies(ByteReader& reader, bool sized) {
 void read_suffix(ByteReader& reader, NatNetFrame& frame) {
   reader.skip(8);
   frame.timestamp_s = reader.f64();
+  if (!std::isfinite(frame.timestamp_s)) reader.fail();
   frame.exposed_ticks = reader.u64();
   reader.skip(8);
   frame.sent_ticks = reader.u64();

@@ -19,7 +19,7 @@ struct NatNetSettings {
   std::string server = "127.0.0.1";
   std::string local = "0.0.0.0";  ///< our own address in the server's network; 0.0.0.0: the system chooses
   std::uint16_t command_port = 1510;
-  std::uint16_t data_port = 1511;  ///< multicast only
+  std::uint16_t data_port = 1511;  ///< unicast with 0: frames come to the socket of commands alone
   NatNetCast cast = NatNetCast::multicast;
   std::string group = "239.255.42.99";
   NatNetAxes axes = NatNetAxes::y_up;
