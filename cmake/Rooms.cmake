@@ -29,11 +29,11 @@ focalstage_room(io/plot         USES core/base                     PRIVATE_LIBS 
 focalstage_room(io/protocol     USES io/project io/assets io/json io/files core/check core/compile core/scene)
 
 # devices: the rig; drivers see only core
-focalstage_room(devices/sim     USES core/base)
-focalstage_room(devices/tracker USES core/base)
-focalstage_room(devices/natnet  USES devices/tracker core/base)
-focalstage_room(devices/player  USES devices/sim io/show core/schedule)
-focalstage_room(devices/runtime USES devices/player devices/sim io/show io/project io/assets io/json io/protocol io/files
+focalstage_room(devices/roles   USES core/base)
+focalstage_room(devices/sim     USES devices/roles core/base)
+focalstage_room(devices/natnet  USES devices/roles core/base)
+focalstage_room(devices/player  USES devices/roles io/show core/schedule)
+focalstage_room(devices/runtime USES devices/player devices/sim devices/roles io/show io/project io/assets io/json io/protocol io/files
                                      core/check core/compile core/schedule core/stage
                                 PRIVATE_LIBS spdlog::spdlog gRPC::grpc++ gRPC::grpc++_reflection)
 

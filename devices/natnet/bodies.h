@@ -6,7 +6,7 @@
 
 #include "devices/natnet/packets.h"
 #include "devices/natnet/settings.h"
-#include "devices/tracker/tracker.h"
+#include "devices/roles/tracker.h"
 
 namespace focalstage {
 

@@ -6,6 +6,8 @@
 #include <system_error>
 #include <utility>
 
+#include "devices/roles/clock.h"
+
 namespace focalstage {
 
 namespace {
@@ -15,8 +17,6 @@ constexpr int tick_ms = 10;
 // From one socket in a row, so that a flood does not keep the others and the keep-alive waiting.
 constexpr int most_in_a_row = 64;
 constexpr std::size_t longest_datagram = 65536;
-
-double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 }  // namespace
 
@@ -29,7 +29,7 @@ Status NatNetReceiver::start() {
   }
   {
     const std::lock_guard lock(mutex_);
-    session_.emplace(settings_, now_s());
+    session_.emplace(settings_, monotonic_s());
   }
   try {
     thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
@@ -59,7 +59,7 @@ std::shared_ptr<const TrackedFrame> NatNetReceiver::newest() const {
 
 TrackerState NatNetReceiver::state() const {
   const std::lock_guard lock(mutex_);
-  return session_ ? session_->state(now_s()) : TrackerState{};
+  return session_ ? session_->state(monotonic_s()) : TrackerState{};
 }
 
 Status NatNetReceiver::open() {
@@ -98,7 +98,7 @@ void NatNetReceiver::drain(const UdpSocket& socket, std::vector<std::uint8_t>& b
     if (!datagram) return;
     if (datagram->from.host != server_.host) continue;
     const std::lock_guard lock(mutex_);
-    session_->take(datagram->bytes, now_s());
+    session_->take(datagram->bytes, monotonic_s());
   }
 }
 
@@ -106,7 +106,7 @@ void NatNetReceiver::send_due() {
   std::vector<NatNetBytes> messages;
   {
     const std::lock_guard lock(mutex_);
-    messages = session_->due(now_s());
+    messages = session_->due(monotonic_s());
   }
   for (const NatNetBytes& message : messages) sockets_.front().send(message, server_);
 }

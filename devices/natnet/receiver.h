@@ -10,7 +10,7 @@
 #include "devices/natnet/session.h"
 #include "devices/natnet/settings.h"
 #include "devices/natnet/udp_socket.h"
-#include "devices/tracker/tracker.h"
+#include "devices/roles/tracker.h"
 
 namespace focalstage {
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "core/base/result.h"
-#include "devices/sim/rig_port.h"
+#include "devices/roles/rig_port.h"
 
 namespace focalstage {
 

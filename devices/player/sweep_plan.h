@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "devices/sim/rig_port.h"
+#include "devices/roles/rig_port.h"
 #include "io/show/show.h"
 
 namespace focalstage {

@@ -1,8 +1,5 @@
 #include "devices/runtime/lateness.h"
 
-#include <cerrno>
-#include <cmath>
-#include <ctime>
 #include <limits>
 
 #include <pthread.h>
@@ -23,19 +20,6 @@ void Lateness::add(double late_s) {
     ++bin.sweeps;
     return;
   }
-}
-
-void sleep_until(double time_s) {
-  const double whole_s = std::floor(time_s);
-  const timespec until{static_cast<time_t>(whole_s), static_cast<long>((time_s - whole_s) * 1e9)};
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
-  }
-}
-
-double monotonic_s() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 void prefer_this_thread() {

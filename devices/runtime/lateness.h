@@ -18,12 +18,6 @@ class Lateness {
   std::vector<LatenessBin> bins_;
 };
 
-/// Sleeps until the monotonic clock shows `time_s`.
-void sleep_until(double time_s);
-
-/// The monotonic clock.
-double monotonic_s();
-
 /// Asks the system to run this thread before others; fine if it will not.
 void prefer_this_thread();
 

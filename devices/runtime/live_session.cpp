@@ -5,8 +5,8 @@
 
 #include <spdlog/spdlog.h>
 
-#include "devices/runtime/detection.h"
-#include "devices/runtime/lateness.h"
+#include "devices/roles/clock.h"
+#include "devices/roles/detection.h"
 #include "io/protocol/convert.h"
 #include "io/protocol/limits.h"
 #include "io/protocol/silence_watch.h"

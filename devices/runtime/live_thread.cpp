@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "devices/runtime/lateness.h"
+#include "devices/roles/clock.h"
 #include "io/files/files.h"
 
 namespace focalstage {

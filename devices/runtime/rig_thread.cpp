@@ -7,6 +7,8 @@
 
 #include <spdlog/spdlog.h>
 
+#include "devices/roles/clock.h"
+
 namespace focalstage {
 
 namespace {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "devices/sim/rig_port.h"
+#include "devices/roles/rig_port.h"
 
 namespace focalstage {
 

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "devices/sim/rig_port.h"
+#include "devices/roles/rig_port.h"
 #include "devices/sim/sim_lens.h"
 #include "devices/sim/sim_projector.h"
 #include "devices/sim/sim_shutter.h"

@@ -2,7 +2,7 @@
 
 #include <deque>
 
-#include "devices/sim/rig_port.h"
+#include "devices/roles/rig_port.h"
 
 namespace focalstage {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "devices/sim/rig_port.h"
+#include "devices/roles/rig_port.h"
 
 namespace focalstage {
 

@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 #include <spdlog/spdlog.h>
 
-#include "devices/runtime/detection.h"
+#include "devices/roles/detection.h"
 #include "devices/runtime/runtime.h"
 #include "io/project/project_file.h"
 #include "tests/devices/program/runtime_process.h"

@@ -4,7 +4,7 @@
 
 #include <doctest/doctest.h>
 
-#include "devices/runtime/detection.h"
+#include "devices/roles/detection.h"
 #include "devices/runtime/rig_thread.h"
 #include "tests/devices/runtime/sample_project.h"
 #include "tests/devices/sample_show.h"

@@ -1,4 +1,4 @@
-#include "devices/runtime/detection.h"
+#include "devices/roles/detection.h"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "devices/sim/rig_port.h"
+#include "devices/roles/picture.h"
 
 #include <algorithm>
 

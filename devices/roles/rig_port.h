@@ -1,22 +1,12 @@
 #pragma once
 
-#include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include "core/base/sides.h"
+#include "devices/roles/picture.h"
 
 namespace focalstage {
-
-/// One image as it travels to a projector; `owner` keeps the bytes alive.
-struct Picture {
-  std::shared_ptr<const void> owner;
-  std::span<const std::uint8_t> codes;
-};
-
-/// The same bytes, wherever they lie.
-bool same_picture(const Picture& a, const Picture& b);
 
 /// The liquid crystal is dark under voltage and clear without.
 enum class ShutterLevel { closed, open };

@@ -1,0 +1,11 @@
+#pragma once
+
+namespace focalstage {
+
+/// The clock that all devices of one machine are told and tell by: CLOCK_MONOTONIC, in seconds.
+double monotonic_s();
+
+/// Sleeps until that clock shows `time_s`.
+void sleep_until(double time_s);
+
+}  // namespace focalstage

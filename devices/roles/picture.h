@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace focalstage {
+
+/// One image as it travels to a projector: codes row by row from the top left, channels interleaved; `owner` keeps the
+/// bytes alive.
+struct Picture {
+  std::shared_ptr<const void> owner;
+  std::span<const std::uint8_t> codes;
+};
+
+/// The same bytes, wherever they lie.
+bool same_picture(const Picture& a, const Picture& b);
+
+}  // namespace focalstage
