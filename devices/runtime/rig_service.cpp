@@ -10,7 +10,6 @@
 
 #include "devices/runtime/live_session.h"
 #include "devices/runtime/show_loader.h"
-#include "devices/runtime/sim_description.h"
 #include "io/protocol/convert.h"
 
 namespace focalstage {
@@ -37,8 +36,7 @@ v1::RigState RigService::state() const {
 }
 
 RigTerms RigService::terms() const {
-  return {[settings = settings_](double hz) { return describe_sim(settings.sim, settings.limits, hz); },
-          settings_.limits};
+  return {[settings = settings_](double hz) { return settings.rig.describe(settings.limits, hz); }, settings_.limits};
 }
 
 /// What needs the rig for oneself: the token first, then the step, then the state after it.
@@ -53,7 +51,7 @@ grpc::Status RigService::held(const std::string& token, v1::RigState* reply, Ste
 grpc::Status RigService::Describe(grpc::ServerContext*, const v1::DescribeRequest* request, v1::RigDescription* reply) {
   const double asked_hz = request->frequency_hz();
   const double frequency_hz = std::isfinite(asked_hz) && asked_hz > 0.0 ? asked_hz : 60.0;
-  *reply = message_from(describe_sim(settings_.sim, settings_.limits, frequency_hz));
+  *reply = message_from(settings_.rig.describe(settings_.limits, frequency_hz));
   return grpc::Status::OK;
 }
 

@@ -13,8 +13,8 @@ namespace focalstage {
 
 namespace {
 
-PlayerSettings player_settings(const RigThreadSettings& settings) {
-  return {settings.at_end, 2, settings.clock == RigClock::virtual_time};
+PlayerSettings player_settings(const RigThreadSettings& settings, const Rig& rig) {
+  return {settings.at_end, rig.settle_sweeps(), settings.clock == RigClock::virtual_time};
 }
 
 Fault missed_light() {
@@ -31,9 +31,10 @@ Fault late_frame() {
 
 RigThread::RigThread(const RigThreadSettings& settings)
     : settings_(settings),
-      sim_(settings.sim, settings.faults),
-      limited_(sim_, settings.limits),
-      player_(limited_, player_settings(settings)),
+      rig_(settings.rig.make()),
+      limited_(*rig_, settings.limits),
+      player_(limited_, player_settings(settings, *rig_)),
+      ledger_(rig_->sees_light()),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 RigThread::~RigThread() {
@@ -108,7 +109,7 @@ void RigThread::count_late(std::uint64_t sweeps) {
 
 void RigThread::hand_over_next() {
   AskedSweep sweep = player_.hand_over(next_start_s_);
-  next_start_s_ += sweep.show->plan.period_s;
+  next_start_s_ = rig_->next_edge_s(next_start_s_, sweep.show->plan.period_s);
   if (sweep.missed && player_.running()) {
     count_late(1);
     make_dark(late_frame());
@@ -121,10 +122,17 @@ void RigThread::hand_over_next() {
 }
 
 void RigThread::settle_until(double time_s) {
-  sim_.run_until(time_s);
-  ledger_.deliver(sim_.take_delivered());
+  rig_->run_until(time_s);
+  ledger_.deliver(rig_->take_delivered());
   ledger_.settle_until(time_s);
   if (ledger_.take_faulty_sweeps() > 0 && player_.running()) make_dark(missed_light());
+  heed_doubt();
+}
+
+/// The rig is dark already; what it doubts is said, and latched, here.
+void RigThread::heed_doubt() {
+  const std::optional<Fault> doubt = rig_->doubt();
+  if (doubt && player_.running()) make_dark(*doubt);
 }
 
 void RigThread::make_dark(const Fault& fault) {
@@ -159,21 +167,21 @@ void RigThread::present(std::shared_ptr<const LoadedShow> show) {
   changed_.notify_all();
 }
 
-Status RigThread::command(Status (Player::*what)()) {
-  const auto lock = take_turn();
-  Status done = (player_.*what)();
-  changed_.notify_all();
-  return done;
-}
-
 Status RigThread::play(std::uint64_t sweeps) {
   const auto lock = take_turn();
+  if (Status ready = rig_->ready(); !ready) return ready;
   Status done = player_.play(sweeps);
   changed_.notify_all();
   return done;
 }
 
-Status RigThread::hold() { return command(&Player::hold); }
+Status RigThread::hold() {
+  const auto lock = take_turn();
+  if (Status ready = rig_->ready(); !ready) return ready;
+  Status done = player_.hold();
+  changed_.notify_all();
+  return done;
+}
 
 Status RigThread::cue(const std::string& name) {
   const auto lock = take_turn();
@@ -182,6 +190,7 @@ Status RigThread::cue(const std::string& name) {
 
 Status RigThread::go() {
   const auto lock = take_turn();
+  if (Status ready = rig_->ready(); !ready) return ready;
   (void)ledger_.take_faulty_sweeps();
   return player_.go();
 }
@@ -217,9 +226,12 @@ RigState RigThread::state() const {
     const double sweeps = (now_s() - next_start_s_) / player_.period_s();
     state.lens_phase = sweeps - std::floor(sweeps);
   }
-  // The simulated rig stands in a room and does not warm.
-  state.temperatures = {{"left lens", 25.0}, {"right lens", 25.0}, {"projector", 25.0}};
-  state.temperature_c = 25.0;
+  for (const RigPart& part : rig_->parts()) {
+    for (const auto& [name, celsius] : part.state.temperatures) {
+      state.temperatures.push_back({name, celsius});
+      state.temperature_c = state.temperatures.size() == 1 ? celsius : std::max(state.temperature_c, celsius);
+    }
+  }
   if (player_.fault()) state.fault = describe(*player_.fault());
   state.slots = ledger_.slots();
   state.frame = player_.frame();

@@ -13,8 +13,8 @@
 #include "devices/player/player.h"
 #include "devices/player/priority_mutex.h"
 #include "devices/runtime/lateness.h"
+#include "devices/runtime/rig_setup.h"
 #include "devices/runtime/slot_ledger.h"
-#include "devices/sim/sim_rig.h"
 #include "io/protocol/rig_values.h"
 
 namespace focalstage {
@@ -22,15 +22,14 @@ namespace focalstage {
 enum class RigClock { real_time, virtual_time };
 
 struct RigThreadSettings {
-  SimSettings sim;
-  SimFaults faults;
+  RigSetup rig = simulated_rig();
   RigLimits limits;
   RigClock clock = RigClock::real_time;
   AtEnd at_end = AtEnd::loop;
   int sweeps_ahead = 6;  ///< handed over before they begin, so that a pause of this program is not seen
 };
 
-/// Plays shows on the simulated rig, sweep after sweep, in a thread of its own. In real time sweeps are handed over a
+/// Plays shows on a rig, sweep after sweep, in a thread of its own. In real time sweeps are handed over a
 /// few ahead; in virtual time the clock runs as fast as it can while a show plays and stands still otherwise.
 ///
 /// Every call may come from any thread. Blackout does not wait for the sweep to end.
@@ -68,15 +67,15 @@ class RigThread {
   bool skip_if_late(double now_s);
   void count_late(std::uint64_t sweeps);
   void settle_until(double time_s);
+  void heed_doubt();
   void make_dark(const Fault& fault);
   double now_s() const;
-  Status command(Status (Player::*what)());
 
   RigThreadSettings settings_;
   mutable PriorityMutex mutex_;
   mutable std::atomic<int> waiting_ = 0;
   mutable std::condition_variable_any changed_;
-  SimRig sim_;
+  std::unique_ptr<Rig> rig_;
   LimitedRig limited_;
   Player player_;
   SlotLedger ledger_;

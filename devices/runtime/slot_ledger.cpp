@@ -78,7 +78,11 @@ void SlotLedger::settle(const AskedSweep& sweep) {
   if (sweep.show != show_) begin_show(sweep.show);
   if (!sweep.lit && !sweep.missed) return;
   std::uint64_t missed = 0;
-  for (std::size_t slot = 0; slot < slots_.size(); ++slot) missed += settle(sweep, slot) ? 0 : 1;
+  if (sees_light_) {
+    for (std::size_t slot = 0; slot < slots_.size(); ++slot) missed += settle(sweep, slot) ? 0 : 1;
+  } else if (sweep.missed) {
+    missed = slots_.size();
+  }
   missed_ += missed;
   if (missed > 0) ++faulty_;
   if (missed == 0 && !std::exchange(seen_whole_, true) && show_->on_light) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "devices/player/player.h"
-#include "devices/sim/sim_rig.h"
+#include "devices/roles/rig.h"
 #include "io/protocol/rig_values.h"
 
 namespace focalstage {
@@ -21,7 +21,10 @@ struct DeliveryTolerance {
 /// Holds what was asked against what was delivered, slot by slot, the worst over all sweeps since the show began.
 class SlotLedger {
  public:
-  explicit SlotLedger(const DeliveryTolerance& tolerance = {}) : tolerance_(tolerance) {}
+  /// `sees_light`: a rig that cannot see its light says nothing of it, so that what was asked counts as neither
+  /// delivered nor missed.
+  explicit SlotLedger(bool sees_light = true, const DeliveryTolerance& tolerance = {})
+      : sees_light_(sees_light), tolerance_(tolerance) {}
 
   void ask(AskedSweep sweep);
   void deliver(std::vector<DeliveredExposure> exposures);
@@ -44,6 +47,7 @@ class SlotLedger {
   void settle(const AskedSweep& sweep);
   const DeliveredExposure* find(double start_s, double within_s) const;
 
+  bool sees_light_;
   DeliveryTolerance tolerance_;
   std::shared_ptr<const LoadedShow> show_;
   bool seen_whole_ = false;  ///< a sweep of it whose light all came

@@ -119,6 +119,12 @@ double SimRig::smear_d(Side eye, double from_s, double to_s) {
   return highest_d - lowest_d;
 }
 
+std::vector<RigPart> SimRig::parts() const {
+  // It stands in a room and does not warm.
+  DeviceState state{DevicePhase::running, {}, 0.0, {{"left lens", 25.0}, {"right lens", 25.0}, {"projector", 25.0}}};
+  return {{{"sim", "simulated rig", "", "in this program"}, std::move(state)}};
+}
+
 std::vector<DeliveredExposure> SimRig::take_delivered() { return std::exchange(delivered_, {}); }
 
 }  // namespace focalstage

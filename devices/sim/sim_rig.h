@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "devices/roles/rig_port.h"
+#include "devices/roles/rig.h"
 #include "devices/sim/sim_lens.h"
 #include "devices/sim/sim_projector.h"
 #include "devices/sim/sim_shutter.h"
@@ -30,19 +30,9 @@ struct SimFaults {
   std::optional<std::uint64_t> drop_trigger;  ///< the one after this many
 };
 
-/// Light that left the projector, and what each eye had before it.
-struct DeliveredExposure {
-  Picture picture;
-  double start_s = 0.0;
-  double duration_s = 0.0;
-  PerEye<double> power_d;             ///< at mid-exposure, through the drive really played
-  PerEye<double> smear_d;             ///< the power's highest less its lowest during the exposure
-  PerEye<Transmission> transmission;  ///< over the exposure
-};
-
 /// A rig without hardware: it is given what hardware is given and nothing else, and remembers the light it gave.
 /// Deterministic; its clock is moved on by `run_until` alone.
-class SimRig : public RigPort {
+class SimRig final : public Rig {
  public:
   explicit SimRig(const SimSettings& settings = {}, const SimFaults& faults = {});
 
@@ -54,11 +44,14 @@ class SimRig : public RigPort {
   void shutter(Side eye, ShutterLevel level, double time_s) override;
   void dark(double time_s) override;
 
-  /// Lets everything up to `time_s` happen. What is handed over afterwards must lie after it.
-  void run_until(double time_s);
-
-  /// The exposures that ended since the last call, in time order.
-  std::vector<DeliveredExposure> take_delivered();
+  int settle_sweeps() const override { return 2; }
+  Status ready() override { return {}; }
+  double next_edge_s(double edge_s, double period_s) const override { return edge_s + period_s; }
+  void run_until(double time_s) override;
+  bool sees_light() const override { return true; }
+  std::vector<DeliveredExposure> take_delivered() override;
+  std::optional<Fault> doubt() const override { return std::nullopt; }
+  std::vector<RigPart> parts() const override;
 
   double power_d(Side eye, double time_s) { return lens_[eye].power_d(time_s); }
   double shutter_transmission(Side eye, double time_s) const { return shutter_[eye].at(time_s); }

@@ -2,18 +2,13 @@
 
 #include <deque>
 
-#include "devices/roles/rig_port.h"
+#include "devices/roles/rig.h"
 
 namespace focalstage {
 
 struct SimShutterSettings {
   double open_s = 0.0030;   ///< from closed to clear: the crystal relaxes
   double close_s = 0.0001;  ///< from clear to closed: the voltage forces it
-};
-
-struct Transmission {
-  double least = 0.0;
-  double most = 0.0;
 };
 
 /// A liquid-crystal shutter: its transmission runs straight from where it is to 0 or 1. Clear until told otherwise, as

@@ -29,7 +29,7 @@ RuntimeOptions options_in(const sample::Folder& folder, int width_px, int height
   RuntimeOptions options;
   options.listen = "127.0.0.1:0";
   options.store = folder.path() / "store";
-  options.rig.sim = sample::sim(width_px, height_px);
+  options.rig.rig = simulated_rig(sample::sim(width_px, height_px));
   return options;
 }
 

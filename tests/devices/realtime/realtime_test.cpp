@@ -19,7 +19,7 @@ TEST_CASE("five seconds in real time: every image shown is the right one, in its
   project.frames.count = 20;
   REQUIRE(sample::write_show(path, project));
   RigThreadSettings settings;
-  const auto rig_at = [&](double hz) { return describe_sim(settings.sim, settings.limits, hz); };
+  const auto rig_at = [&](double hz) { return settings.rig.describe(settings.limits, hz); };
   const auto show = load_show(path, std::string(64, 'a'), {rig_at, settings.limits});
   REQUIRE(show);
   RigThread rig(settings);

@@ -33,8 +33,7 @@ std::shared_ptr<LoadedShow> show_of(const Project& project) {
 RigState played(const SimFaults& faults, std::uint64_t sweeps, Project project = sample::project()) {
   project.frames.count = 3;
   RigThreadSettings settings;
-  settings.sim = sample::sim();
-  settings.faults = faults;
+  settings.rig = simulated_rig(sample::sim(), faults);
   settings.clock = RigClock::virtual_time;
   RigThread rig(settings);
   REQUIRE(rig.activate(show_of(project)));
@@ -186,8 +185,9 @@ TEST_CASE("a projector that leads by more than the dead window: triggers before 
   project.projectors[0].latency_ms = 4.0;
   project.frames.count = 3;
   RigThreadSettings settings;
-  settings.sim = sample::sim();
-  settings.sim.projector.latency_s = 0.004;
+  SimSettings sim = sample::sim();
+  sim.projector.latency_s = 0.004;
+  settings.rig = simulated_rig(sim);
   settings.clock = RigClock::virtual_time;
   RigThread rig(settings);
   REQUIRE(rig.activate(show_of(project)));
@@ -211,9 +211,10 @@ TEST_CASE("virtual time gives the same report each time, to the last bit") {
 
 TEST_CASE("missed light ends in latched darkness") {
   RigThreadSettings settings;
-  settings.sim = sample::sim();
+  SimSettings sim = sample::sim();
+  sim.projector.least_frame_s = 0.0006;  // some slots follow each other faster than this projector can
+  settings.rig = simulated_rig(sim);
   settings.clock = RigClock::virtual_time;
-  settings.sim.projector.least_frame_s = 0.0006;  // some slots follow each other faster than this projector can
   Project project = sample::project();
   project.slices.powers_d = {-0.2, 0.2};  // 0.53 ms apart at 754 D/s
   RigThread rig(settings);

@@ -34,7 +34,7 @@ struct Stand {
     spdlog::set_level(spdlog::level::off);
     options.listen = "127.0.0.1:0";
     options.store = folder.path() / "store";
-    options.rig.sim = sample::sim(width_px, height_px);
+    options.rig.rig = simulated_rig(sample::sim(width_px, height_px));
     options.rig.clock = clock;
     Result<Runtime> started = Runtime::start(options);
     REQUIRE(started);

@@ -43,7 +43,7 @@ Project adopted(const std::string& name) {
 RigState played(const Project& project) {
   const ShowHeader header = sample::header_of(project);
   RigThreadSettings settings;
-  settings.sim = sample::sim();
+  settings.rig = simulated_rig(sample::sim());
   settings.clock = RigClock::virtual_time;
   RigThread rig(settings);
   REQUIRE(rig.activate(sample::loaded(header, std::make_unique<GrayFrames>(header))));
