@@ -31,6 +31,7 @@ focalstage_room(io/protocol     USES io/project io/assets io/json io/files core/
 # devices: the rig; drivers see only core
 focalstage_room(devices/roles   USES core/base)
 focalstage_room(devices/sim     USES devices/roles core/base)
+focalstage_room(devices/rig     USES devices/roles core/base)
 focalstage_room(devices/natnet  USES devices/roles core/base)
 focalstage_room(devices/player  USES devices/roles io/show core/schedule)
 focalstage_room(devices/runtime USES devices/player devices/sim devices/roles io/show io/project io/assets io/json io/protocol io/files

@@ -32,6 +32,10 @@ void LimitedRig::set_exposure(double exposure_s) {
   rig_.set_exposure(exposure_s);
 }
 
+void LimitedRig::announce_triggers(std::span<const double> trigger_s) {
+  if (!fault_) rig_.announce_triggers(trigger_s);
+}
+
 void LimitedRig::set_drive(Side eye, std::span<const double> drive_a, double step_s) {
   const char* where = eye == Side::left ? "left lens" : "right lens";
   double worst_a = 0.0;

@@ -42,7 +42,8 @@ void Player::activate(std::shared_ptr<const LoadedShow> show) {
 }
 
 void Player::begin(std::shared_ptr<const LoadedShow> show) {
-  const bool goes_on = running() && show_ && show_->plan.moves_as(show->plan);
+  const bool goes_on = running() && show_ && show_->plan.moves_as(show->plan) &&
+                       (settings_.retimes_at_once || show_->plan.fires_as(show->plan));
   if (!goes_on) to_settle_ = settings_.settle_sweeps;
   drive_is_new_ = true;
   show_ = std::move(show);
@@ -145,6 +146,7 @@ bool Player::fetch(AskedSweep& sweep) {
 void Player::drive(const SweepPlan& plan, const AskedSweep& sweep) {
   if (std::exchange(drive_is_new_, false)) {
     rig_.set_exposure(plan.exposure_s);
+    rig_.announce_triggers(plan.trigger_s);
     for (const Side eye : both_sides) rig_.set_drive(eye, plan.drive_a[eye], plan.drive_step_s);
   }
   rig_.post_images(sweep.pictures);

@@ -36,6 +36,7 @@ struct PlayerSettings {
   AtEnd at_end = AtEnd::loop;
   int settle_sweeps = 2;         ///< without light, wherever lens or shutters begin to move otherwise
   bool wait_for_frames = false;  ///< virtual time: a frame is never late
+  bool retimes_at_once = true;   ///< triggers may come at other times from one sweep to the next
 };
 
 /// What one sweep was asked to show.

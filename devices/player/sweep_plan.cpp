@@ -61,6 +61,10 @@ bool SweepPlan::moves_as(const SweepPlan& other) const {
          shutters == other.shutters;
 }
 
+bool SweepPlan::fires_as(const SweepPlan& other) const {
+  return trigger_s == other.trigger_s && exposure_s == other.exposure_s;
+}
+
 Result<SweepPlan> sweep_plan(const ShowHeader& show) {
   if (Status sound = check_schedule(show); !sound) return sound.fault();
   const Schedule& schedule = show.schedule;

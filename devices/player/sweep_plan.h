@@ -29,6 +29,9 @@ struct SweepPlan {
 
   /// The lens and the shutters go on as they are: nothing has to settle between the two.
   bool moves_as(const SweepPlan& other) const;
+
+  /// Exposures come at the same times and last as long.
+  bool fires_as(const SweepPlan& other) const;
 };
 
 /// Faults "show.schedule": a schedule that no rig could follow, with the place in the show.

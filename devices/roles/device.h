@@ -36,8 +36,9 @@ struct DeviceTemperature {
 /// How a device stands now.
 struct DeviceState {
   DevicePhase phase = DevicePhase::off;
-  std::optional<Fault> fault;  ///< where lost or refused, or why it went dark by itself
-  double heard_s = 0.0;        ///< when it last answered well (monotonic clock, devices/roles/clock.h); 0: never
+  std::optional<Fault>
+      fault;             ///< where lost or refused; or why it went dark by itself, until it is told to (`dark`, `stop`)
+  double heard_s = 0.0;  ///< when it last answered well (monotonic clock, devices/roles/clock.h); 0: never
   std::vector<DeviceTemperature> temperatures;
 };
 

@@ -36,6 +36,7 @@ struct Exposures {
 };
 
 struct ProjectorReport {
+  double told_s = 0.0;          ///< when the counts stood so, on the monotonic clock
   std::uint64_t periods = 0;    ///< shown since `start`
   std::uint64_t exposures = 0;  ///< shown since `start`
   std::uint64_t missed = 0;     ///< triggered (or due, where it is the master) without a picture

@@ -38,6 +38,9 @@ class Rig : public RigPort {
   /// How many sweeps pass without light wherever lens or shutters begin to move otherwise.
   virtual int settle_sweeps() const = 0;
 
+  /// Whether triggers may come at other times from one sweep to the next; else that takes such sweeps too.
+  virtual bool retimes_at_once() const = 0;
+
   /// All it needs is there and answers; ends what `doubt` says, where that is over. Asked before light may begin.
   virtual Status ready() = 0;
 

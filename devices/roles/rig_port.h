@@ -24,6 +24,10 @@ class RigPort {
   /// How long the projector shows an image after each trigger.
   virtual void set_exposure(double exposure_s) = 0;
 
+  /// When in a sweep its triggers will come, seconds from the sync edge and in time order, negative before it: for a
+  /// rig that loads them beforehand. From the next sync edge on; a sweep then has all of these triggers or none.
+  virtual void announce_triggers(std::span<const double> trigger_s) = 0;
+
   /// Refills the waveform generator of one lens: played from the next sync edge on, over and over.
   virtual void set_drive(Side eye, std::span<const double> drive_a, double step_s) = 0;
 

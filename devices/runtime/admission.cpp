@@ -19,6 +19,7 @@ namespace {
 class NoRig : public RigPort {
  public:
   void set_exposure(double) override {}
+  void announce_triggers(std::span<const double>) override {}
   void set_drive(Side, std::span<const double>, double) override {}
   void post_images(std::vector<Picture>) override {}
   void sync_edge(double) override {}

@@ -14,7 +14,7 @@ namespace focalstage {
 namespace {
 
 PlayerSettings player_settings(const RigThreadSettings& settings, const Rig& rig) {
-  return {settings.at_end, rig.settle_sweeps(), settings.clock == RigClock::virtual_time};
+  return {settings.at_end, rig.settle_sweeps(), settings.clock == RigClock::virtual_time, rig.retimes_at_once()};
 }
 
 Fault missed_light() {

@@ -37,6 +37,7 @@ class SimRig final : public Rig {
   explicit SimRig(const SimSettings& settings = {}, const SimFaults& faults = {});
 
   void set_exposure(double exposure_s) override;
+  void announce_triggers(std::span<const double>) override {}  // it waits for each
   void set_drive(Side eye, std::span<const double> drive_a, double step_s) override;
   void post_images(std::vector<Picture> pictures) override;
   void sync_edge(double time_s) override;
@@ -45,6 +46,7 @@ class SimRig final : public Rig {
   void dark(double time_s) override;
 
   int settle_sweeps() const override { return 2; }
+  bool retimes_at_once() const override { return true; }
   Status ready() override { return {}; }
   double next_edge_s(double edge_s, double period_s) const override { return edge_s + period_s; }
   void run_until(double time_s) override;

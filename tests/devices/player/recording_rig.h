@@ -19,6 +19,9 @@ class RecordingRig : public RigPort {
   };
 
   void set_exposure(double exposure_s) override { exposure_s_ = exposure_s; }
+  void announce_triggers(std::span<const double> trigger_s) override {
+    announced_s.assign(trigger_s.begin(), trigger_s.end());
+  }
   void set_drive(Side, std::span<const double>, double) override { next_.new_drive = true; }
   void post_images(std::vector<Picture> pictures) override {
     for (const Picture& picture : pictures) next_.codes.push_back(picture.codes[0]);
@@ -34,6 +37,7 @@ class RecordingRig : public RigPort {
 
   std::vector<Sweep> sweeps;
   std::vector<double> dark_s;
+  std::vector<double> announced_s;
   double exposure_s_ = 0.0;
 
  private:

@@ -1,0 +1,152 @@
+#include "devices/rig/conductor.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace focalstage {
+
+namespace {
+
+// How much of the way to where the devices' beat stands one sweep goes: their reports come with the jitter of their
+// lines.
+constexpr double follow_share = 0.1;
+
+Fault late_pictures() {
+  return {"rig.missed-light", "projector", "a sweep's pictures were not there when it began",
+          "see that nothing else keeps this machine busy, then say go"};
+}
+
+Fault lost_trigger(std::uint64_t missed) {
+  return {"rig.missed-light", "projector",
+          missed > 0 ? "it had no picture for " + std::to_string(missed) + " triggers"
+                     : "a trigger came to nothing: its count stands where no period ends",
+          "look at the line between trigger board and projector, then say go"};
+}
+
+BoardTable board_table(const Score& score, const std::vector<TableTrigger>& triggers, double pulse_s) {
+  BoardTable table;
+  table.period_s = score.drive.period_s;
+  table.pulse_s = pulse_s;
+  for (const TableTrigger& trigger : triggers) table.trigger_s.push_back(trigger.at_s);
+  table.shutter = score.shutter;
+  return table;
+}
+
+Exposures exposures_of(const Score& score, const std::vector<TableTrigger>& triggers, double latency_s) {
+  Exposures exposures;
+  exposures.period_s = score.drive.period_s;
+  for (const TableTrigger& trigger : triggers) exposures.start_s.push_back(trigger.at_s + latency_s);
+  exposures.exposure_s = score.exposure_s;
+  return exposures;
+}
+
+}  // namespace
+
+double next_edge_s(const LensDrive& lens, double edge_s, double period_s) {
+  const double planned_s = edge_s + period_s;
+  const DriveReport beat = lens.report();
+  if (beat.periods == 0 || !(beat.period_s > 0.0)) return planned_s;
+  const double periods = std::round((planned_s - beat.newest_period_s) / beat.period_s);
+  const double beat_s = beat.newest_period_s + periods * beat.period_s;
+  return planned_s + follow_share * (beat_s - planned_s);
+}
+
+/// Takes up the score of the sweep that is next, once all of the one before it was shown.
+Status Conductor::follow_score() {
+  const std::shared_ptr<const Score>& wanted = sweeps_.front().score;
+  if (score_ && *wanted == *score_) return {};
+  if (stage_ == Stage::lit) {
+    if (!last_of_score_) last_of_score_ = posted_;
+    if (devices_.projector->report().periods < *last_of_score_) return {};
+    leave_light();
+  }
+  if (stage_ == Stage::idle) {
+    if (Status started = devices_.lens->start(wanted->drive); !started) return started;
+  } else if (wanted->drive != score_->drive) {
+    if (auto refilled = devices_.lens->refill(wanted->drive); !refilled) return refilled.fault();
+  }
+  score_ = wanted;
+  stage_ = Stage::driving;
+  return {};
+}
+
+void Conductor::leave_light() {
+  devices_.projector->dark();
+  devices_.board->dark();
+  last_of_score_.reset();
+}
+
+/// Tables travel while everything is dark.
+Status Conductor::prepare() {
+  triggers_ = table_triggers(*score_);
+  if (triggers_.empty() || !devices_.board->report().period_s) return {};
+  const double latency_s = devices_.projector->abilities().latency_s;
+  if (Status armed = devices_.projector->arm(exposures_of(*score_, triggers_, latency_s)); !armed) return armed;
+  if (Status loaded = devices_.board->load(board_table(*score_, triggers_, settings_.pulse_s)); !loaded) return loaded;
+  watch_ = TriggerWatch(triggers_, score_->drive.period_s);
+  stage_ = Stage::prepared;
+  return {};
+}
+
+/// The projector first, with a period in the dark, so that no trigger finds it without pictures.
+Status Conductor::begin_light(double now_s) {
+  if (Status started = devices_.projector->start(); !started) return started;
+  if (Status dark = devices_.projector->post({}); !dark) return dark;
+  posted_ = 1;
+  if (Status armed = devices_.board->arm(); !armed) return armed;
+  stage_ = Stage::lit;
+  // The dark period begins at the coming edge; what was to be shown before the one after it is too late.
+  const double period_s = score_->drive.period_s;
+  return drop_past(now_s + 1.5 * period_s);
+}
+
+/// Sweeps in the dark may go by while nothing is lit; light may not.
+Status Conductor::drop_past(double before_s) {
+  while (!sweeps_.empty() && sweeps_.front().start_s < before_s) {
+    if (!sweeps_.front().pictures.empty()) return late_pictures();
+    sweeps_.pop_front();
+  }
+  return {};
+}
+
+Status Conductor::feed() {
+  const ProjectorReport report = devices_.projector->report();
+  if (report.missed > 0) return lost_trigger(report.missed);
+  if (!watch_.sample(report.told_s, report.exposures)) return lost_trigger(0);
+  const auto most_ahead = static_cast<std::uint64_t>(devices_.projector->abilities().most_periods_ahead);
+  while (posted_ < report.periods + most_ahead) {
+    auto pictures = period_pictures(triggers_, sweeps_);
+    if (!pictures || sweeps_.empty()) return posted_ > report.periods ? Status() : Status(late_pictures());
+    if (Status posted = devices_.projector->post(std::move(*pictures)); !posted) return posted;
+    ++posted_;
+    sweeps_.pop_front();
+  }
+  return {};
+}
+
+Status Conductor::step(double now_s) {
+  if (stage_ != Stage::lit) {
+    if (Status dropped = drop_past(now_s); !dropped) return dropped;
+  }
+  if (!sweeps_.empty()) {
+    if (Status followed = follow_score(); !followed) return followed;
+  }
+  if (stage_ == Stage::driving) {
+    if (Status prepared = prepare(); !prepared) return prepared;
+  }
+  if (stage_ == Stage::prepared) {
+    if (Status begun = begin_light(now_s); !begun) return begun;
+  }
+  return stage_ == Stage::lit ? feed() : Status();
+}
+
+void Conductor::forget() {
+  stage_ = Stage::idle;
+  score_.reset();
+  sweeps_.clear();
+  posted_ = 0;
+  last_of_score_.reset();
+}
+
+}  // namespace focalstage

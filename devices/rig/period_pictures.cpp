@@ -1,0 +1,52 @@
+#include "devices/rig/period_pictures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace focalstage {
+
+namespace {
+
+Picture black_as(const Picture& other) {
+  auto codes = std::make_shared<std::vector<std::uint8_t>>(other.codes.size());
+  return {codes, *codes};
+}
+
+}  // namespace
+
+std::vector<TableTrigger> table_triggers(const Score& score) {
+  std::vector<TableTrigger> triggers;
+  for (std::size_t slot = 0; slot < score.trigger_s.size(); ++slot) {
+    const double periods = std::floor(score.trigger_s[slot] / score.drive.period_s);
+    triggers.push_back({score.trigger_s[slot] - periods * score.drive.period_s, slot, -static_cast<int>(periods)});
+  }
+  std::ranges::stable_sort(triggers, {}, &TableTrigger::at_s);
+  return triggers;
+}
+
+std::optional<std::vector<Picture>> period_pictures(const std::vector<TableTrigger>& triggers,
+                                                    const std::deque<HandedSweep>& sweeps) {
+  std::vector<Picture> pictures;
+  const Picture* lit = nullptr;
+  for (const TableTrigger& trigger : triggers) {
+    // A trigger after its own period's end is the sweep before's; that one is gone, and its light with it.
+    if (trigger.sweeps_later < 0) {
+      pictures.emplace_back();
+      continue;
+    }
+    const auto place = static_cast<std::size_t>(trigger.sweeps_later);
+    if (place >= sweeps.size()) return std::nullopt;
+    const std::vector<Picture>& of_sweep = sweeps[place].pictures;
+    pictures.push_back(trigger.slot < of_sweep.size() ? of_sweep[trigger.slot] : Picture{});
+    if (!pictures.back().codes.empty()) lit = &of_sweep[trigger.slot];
+  }
+  if (lit == nullptr) return std::vector<Picture>{};
+  const Picture black = black_as(*lit);
+  for (Picture& picture : pictures) {
+    if (picture.codes.empty()) picture = black;
+  }
+  return pictures;
+}
+
+}  // namespace focalstage
