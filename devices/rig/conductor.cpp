@@ -43,8 +43,7 @@ Exposures exposures_of(const Score& score, const std::vector<TableTrigger>& trig
 
 }  // namespace
 
-double next_edge_s(const LensDrive& lens, double edge_s, double period_s) {
-  const double planned_s = edge_s + period_s;
+double edge_near_s(const LensDrive& lens, double planned_s) {
   const DriveReport beat = lens.report();
   if (beat.periods == 0 || !(beat.period_s > 0.0)) return planned_s;
   const double periods = std::round((planned_s - beat.newest_period_s) / beat.period_s);

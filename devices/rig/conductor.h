@@ -27,8 +27,8 @@ struct DeviceRigSettings {
   double pulse_s = 100e-6;  ///< of a projector trigger
 };
 
-/// When the sync edge after that at `edge_s` comes, by the beat that the lens drive gives.
-double next_edge_s(const LensDrive& lens, double edge_s, double period_s);
+/// A little of the way from where a sync edge is planned to where the lens drive's beat has it.
+double edge_near_s(const LensDrive& lens, double planned_s);
 
 /// Leads the devices through what was handed over: current first, then tables, then triggers, then pictures in time.
 /// Has no thread and no clock: `step` is told the time, every 2 ms or so. Once light may come, no step waits for a

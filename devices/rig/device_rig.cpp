@@ -68,9 +68,7 @@ Status DeviceRig::ready() {
   return {};
 }
 
-double DeviceRig::next_edge_s(double edge_s, double period_s) const {
-  return focalstage::next_edge_s(*devices_.lens, edge_s, period_s);
-}
+double DeviceRig::edge_near_s(double planned_s) const { return focalstage::edge_near_s(*devices_.lens, planned_s); }
 
 std::optional<Fault> DeviceRig::doubt() const {
   const std::lock_guard lock(mutex_);

@@ -38,7 +38,7 @@ class DeviceRig final : public Rig {
   int settle_sweeps() const override { return settings_.settle_sweeps; }
   bool retimes_at_once() const override { return false; }
   Status ready() override;
-  double next_edge_s(double edge_s, double period_s) const override;
+  double edge_near_s(double planned_s) const override;
   void run_until(double time_s) override;
   bool sees_light() const override { return false; }
   std::vector<DeliveredExposure> take_delivered() override { return {}; }

@@ -44,8 +44,9 @@ class Rig : public RigPort {
   /// All it needs is there and answers; ends what `doubt` says, where that is over. Asked before light may begin.
   virtual Status ready() = 0;
 
-  /// When the sync edge after the one at `edge_s` comes, by the rig's own beat.
-  virtual double next_edge_s(double edge_s, double period_s) const = 0;
+  /// Where the sync edge that is planned for `planned_s` is to be looked for, by the rig's own beat: the plan follows
+  /// it.
+  virtual double edge_near_s(double planned_s) const = 0;
 
   /// Lets everything up to `time_s` happen. What is handed over afterwards lies after it.
   virtual void run_until(double time_s) = 0;

@@ -109,7 +109,7 @@ void RigThread::count_late(std::uint64_t sweeps) {
 
 void RigThread::hand_over_next() {
   AskedSweep sweep = player_.hand_over(next_start_s_);
-  next_start_s_ = rig_->next_edge_s(next_start_s_, sweep.show->plan.period_s);
+  plan_next(sweep.show->plan.period_s);
   if (sweep.missed && player_.running()) {
     count_late(1);
     make_dark(late_frame());
@@ -119,6 +119,18 @@ void RigThread::hand_over_next() {
   if (player_.running()) return;
   on_time_ = false;
   spdlog::error("dark: {}", player_.fault() ? describe(*player_.fault()) : std::string());
+}
+
+/// Counted from where the plan last had to move, so that a day of sweeps adds no rounding.
+void RigThread::plan_next(double period_s) {
+  const double expected_s = anchor_s_ + static_cast<double>(since_anchor_) * anchor_period_s_;
+  if (next_start_s_ != expected_s || period_s != anchor_period_s_) {
+    anchor_s_ = next_start_s_;
+    anchor_period_s_ = period_s;
+    since_anchor_ = 0;
+  }
+  ++since_anchor_;
+  next_start_s_ = rig_->edge_near_s(anchor_s_ + static_cast<double>(since_anchor_) * period_s);
 }
 
 void RigThread::settle_until(double time_s) {

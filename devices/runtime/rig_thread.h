@@ -66,6 +66,7 @@ class RigThread {
   void hand_over_next();
   bool skip_if_late(double now_s);
   void count_late(std::uint64_t sweeps);
+  void plan_next(double period_s);
   void settle_until(double time_s);
   void heed_doubt();
   void make_dark(const Fault& fault);
@@ -81,6 +82,9 @@ class RigThread {
   SlotLedger ledger_;
   Lateness lateness_;
   double next_start_s_ = 0.0;
+  double anchor_s_ = 0.0;  ///< the sweep from which starts are counted, of so many sweeps so long
+  double anchor_period_s_ = 0.0;
+  std::uint64_t since_anchor_ = 0;
   bool on_time_ = false;  ///< the timeline runs: the next sweep follows the one before
   std::uint64_t late_sweeps_ = 0;
   std::uint64_t never_handed_over_ = 0;

@@ -48,7 +48,7 @@ class SimRig final : public Rig {
   int settle_sweeps() const override { return 2; }
   bool retimes_at_once() const override { return true; }
   Status ready() override { return {}; }
-  double next_edge_s(double edge_s, double period_s) const override { return edge_s + period_s; }
+  double edge_near_s(double planned_s) const override { return planned_s; }
   void run_until(double time_s) override;
   bool sees_light() const override { return true; }
   std::vector<DeliveredExposure> take_delivered() override;

@@ -50,7 +50,7 @@ struct Stand {
         if (lit) rig->trigger(next_s + at_s);
       }
       rig->run_until(monotonic_s());
-      next_s = rig->next_edge_s(next_s, period_s);
+      next_s = rig->edge_near_s(next_s + period_s);
       sleep_until(next_s - 6 * period_s);
     }
     if (rig->doubt()) MESSAGE(describe(*rig->doubt()));
