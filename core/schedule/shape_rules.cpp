@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/schedule/shape_words.h"
+#include "core/base/number_words.h"
 #include "core/schedule/slots.h"
 
 namespace focalstage {
@@ -26,7 +26,7 @@ Result<std::vector<double>> powers_of(const std::vector<ImageSpec>& images) {
   for (std::size_t k = 1; k < powers_d.size(); ++k) {
     if (powers_d[k] - powers_d[k - 1] > same_power_d) continue;
     return Fault{"shape.slices", "/slices/powers_d",
-                 "two slices at " + shape_number(powers_d[k]) + " D cannot both be shown", "remove one of them"};
+                 "two slices at " + short_text(powers_d[k], 4) + " D cannot both be shown", "remove one of them"};
   }
   return powers_d;
 }
@@ -73,7 +73,7 @@ Status check_response(const Glasses& glasses) {
       }
       return Fault{"shape.limits", "/glasses/lens_response",
                    "harmonic " + std::to_string(entry.harmonic) + " of the lens cannot be driven: its gain is " +
-                       shape_number(entry.gain_d_per_a) + " D/A",
+                       short_text(entry.gain_d_per_a, 4) + " D/A",
                    "measure the lens again, or adopt-rig"};
     }
   }
@@ -86,8 +86,8 @@ Status check_room(const ShapeTask& task) {
   const double there_s = task.clear.length_s();
   if (needed_s <= there_s) return {};
   return Fault{"shape.room", "/slices/powers_d",
-               std::to_string(task.powers_d.size()) + " exposures take " + shape_number(needed_s * 1000.0) +
-                   " ms of each half; the shutters leave " + shape_number(there_s * 1000.0) + " ms",
+               std::to_string(task.powers_d.size()) + " exposures take " + short_text(needed_s * 1000.0, 4) +
+                   " ms of each half; the shutters leave " + short_text(there_s * 1000.0, 4) + " ms",
                "remove slices, expose for less, or sweep more slowly"};
 }
 
@@ -145,8 +145,8 @@ Result<ShapeRules> shape_rules(const Project& project, const std::vector<ImageSp
   if (Status room = check_room(task); !room) return room.fault();
   if (task.powers_d.front() > task.lowest_d && task.powers_d.back() < task.highest_d) return rules;
   return Fault{"shape.slices", "/slices/powers_d",
-               "a slice lies outside the sweep from " + shape_number(task.lowest_d) + " to " +
-                   shape_number(task.highest_d) + " D",
+               "a slice lies outside the sweep from " + short_text(task.lowest_d, 4) + " to " +
+                   short_text(task.highest_d, 4) + " D",
                "widen the sweep"};
 }
 

@@ -1,15 +1,8 @@
 #include "core/schedule/shape_words.h"
 
-#include <array>
-#include <cstdio>
+#include "core/base/number_words.h"
 
 namespace focalstage {
-
-std::string shape_number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", value);
-  return text.data();
-}
 
 std::string name_of(ShapeLimit limit) {
   switch (limit) {
@@ -37,8 +30,8 @@ std::string unit_of(ShapeLimit limit) {
 }
 
 std::string describe(const ShapeBound& bound) {
-  const std::string allowed = shape_number(bound.allowed);
-  const std::string needed = shape_number(bound.needed);
+  const std::string allowed = short_text(bound.allowed, 4);
+  const std::string needed = short_text(bound.needed, 4);
   switch (bound.limit) {
     case ShapeLimit::response:
       return "the lens response is measured up to harmonic " + allowed + " of " + needed +

@@ -15,7 +15,4 @@ std::string unit_of(ShapeLimit limit);
 /// What binds and by how much, in a sentence without a full stop.
 std::string describe(const ShapeBound& bound);
 
-/// Four significant digits.
-std::string shape_number(double value);
-
 }  // namespace focalstage

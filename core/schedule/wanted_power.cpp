@@ -4,10 +4,10 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/number_words.h"
 #include "core/schedule/drive_load.h"
 #include "core/schedule/lens_response.h"
 #include "core/schedule/shape_rules.h"
-#include "core/schedule/shape_words.h"
 #include "core/schedule/waveform.h"
 
 namespace focalstage {
@@ -52,7 +52,7 @@ Status check_measured(const std::vector<double>& power_d, const LensResponse& re
   const double lost_d = largest(unmeasured(power_d, response));
   if (lost_d <= most_unmeasured_d) return {};
   return fault("unmeasured",
-               shape_number(lost_d) + " D of it lie beyond harmonic " +
+               short_text(lost_d, 4) + " D of it lie beyond harmonic " +
                    std::to_string(std::max(1, measured_harmonics(response))) + ", where the lens was not measured",
                "smooth it, let its last sample lead to its first, or adopt-rig a response that goes further");
 }
@@ -66,9 +66,9 @@ Result<MeasuredWaveform> wanted_waveform(std::vector<double> power_d, const Glas
   const double highest_d = *std::max_element(power_d.begin(), power_d.end());
   if (power_d.front() < glasses.lens_range_d[0] || highest_d > glasses.lens_range_d[1]) {
     return fault("range",
-                 "from " + shape_number(power_d.front()) + " to " + shape_number(highest_d) + " D is beyond the lens",
-                 "keep it from " + shape_number(glasses.lens_range_d[0]) + " to " +
-                     shape_number(glasses.lens_range_d[1]) + " D");
+                 "from " + short_text(power_d.front(), 4) + " to " + short_text(highest_d, 4) + " D is beyond the lens",
+                 "keep it from " + short_text(glasses.lens_range_d[0], 4) + " to " +
+                     short_text(glasses.lens_range_d[1], 4) + " D");
   }
   const LensResponse& response = glasses.lens_response[eye];
   if (Status measured = check_measured(power_d, response); !measured) return measured.fault();
@@ -77,9 +77,9 @@ Result<MeasuredWaveform> wanted_waveform(std::vector<double> power_d, const Glas
   const DriveLoad load = load_of(waveform.drive_a);
   if (load.peak_a <= limits.max_current_a && load.rms_a <= limits.max_rms_current_a) return waveform;
   return fault("current",
-               "its drive takes " + shape_number(load.peak_a) + " A at the peak and " + shape_number(load.rms_a) +
-                   " A in the root mean square; the lens may get " + shape_number(limits.max_current_a) + " and " +
-                   shape_number(limits.max_rms_current_a) + " A",
+               "its drive takes " + short_text(load.peak_a, 4) + " A at the peak and " + short_text(load.rms_a, 4) +
+                   " A in the root mean square; the lens may get " + short_text(limits.max_current_a, 4) + " and " +
+                   short_text(limits.max_rms_current_a, 4) + " A",
                "narrow or smooth it");
 }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
+#include "core/base/number_words.h"
 #include "core/check/check.h"
 #include "core/check/rig_differences.h"
 #include "core/schedule/lens_response.h"
@@ -48,12 +48,6 @@ double at(const std::vector<double>& samples, double turns) {
   return samples[i] + share * (samples[(i + 1) % samples.size()] - samples[i]);
 }
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
-
 /// The show's own samples and triggers, not what its project says they should be.
 std::string schedule_differences(const ShowHeader& show, const RigDescription& rig) {
   constexpr double most_off_d = 0.02;
@@ -72,8 +66,8 @@ std::string schedule_differences(const ShowHeader& show, const RigDescription& r
     worst_s = std::max(worst_s, std::abs(slot.trigger_s + latency_s - slot.start_s));
   }
   std::string text;
-  if (!(worst_d <= most_off_d)) text += "its drive misses a slice's power by " + number(worst_d) + " D; ";
-  if (!(worst_s <= most_off_s)) text += "its light would come " + number(worst_s * 1e6) + " us off; ";
+  if (!(worst_d <= most_off_d)) text += "its drive misses a slice's power by " + short_text(worst_d, 4) + " D; ";
+  if (!(worst_s <= most_off_s)) text += "its light would come " + short_text(worst_s * 1e6, 4) + " us off; ";
   return text;
 }
 

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "core/base/number_words.h"
 #include "editor/cli/command_list.h"
 #include "editor/cli/output.h"
 #include "editor/cli/progress.h"
@@ -61,8 +62,8 @@ std::string conflicts_text(const CheckedNames& all) {
   if (all.report.conflicts.empty()) return "";
   std::vector<std::vector<std::string>> rows;
   for (const ObjectConflict& one : all.report.conflicts) {
-    rows.push_back({all.objects[one.index], number_text(one.mean_d, 2), number_text(one.worst_d, 2),
-                    number_text(100.0 * one.beyond_comfort, 0)});
+    rows.push_back({all.objects[one.index], fixed_text(one.mean_d, 2), fixed_text(one.worst_d, 2),
+                    fixed_text(100.0 * one.beyond_comfort, 0)});
   }
   return "\nVergence against accommodation, in dioptres (positive: the focus lies further away)\n" +
          table_text({{"object"}, {"mean", true}, {"worst", true}, {"% beyond 0.5", true}}, rows);

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <memory>
 
+#include "core/base/number_words.h"
 #include "core/schedule/shape_words.h"
 #include "core/schedule/sweep_shape.h"
 #include "editor/cli/command_list.h"
@@ -95,10 +96,10 @@ std::vector<std::string> row_of(const SweepShape& shape, const ImageSpec& image,
   const Slot* const sine = same_slot(shape.sine, number, eye);
   const Slot* const shaped = same_slot(shape.shaped, number, eye);
   const auto at = [](const Slot* slot) {
-    return slot ? number_text((slot->start_s + slot->exposure_s / 2.0) * 1000.0, 3) : std::string("-");
+    return slot ? fixed_text((slot->start_s + slot->exposure_s / 2.0) * 1000.0, 3) : std::string("-");
   };
-  const auto smear = [](const Slot* slot) { return slot ? number_text(slot->smear_d, 4) : std::string("-"); };
-  return {number_text(image.power_d, 3),
+  const auto smear = [](const Slot* slot) { return slot ? fixed_text(slot->smear_d, 4) : std::string("-"); };
+  return {fixed_text(image.power_d, 3),
           eye == Side::left ? "left" : "right",
           at(sine),
           smear(sine),
@@ -122,24 +123,24 @@ void print_table(const SweepShape& shape, const std::vector<ImageSpec>& images) 
 
 void print_load(const char* lens, const DriveLoad& sine, const DriveLoad& shaped) {
   std::printf("%s lens: %s mA at the peak, %s mA root mean square; the sine takes %s and %s mA\n", lens,
-              number_text(shaped.peak_a * 1000.0, 1).c_str(), number_text(shaped.rms_a * 1000.0, 1).c_str(),
-              number_text(sine.peak_a * 1000.0, 1).c_str(), number_text(sine.rms_a * 1000.0, 1).c_str());
+              fixed_text(shaped.peak_a * 1000.0, 1).c_str(), fixed_text(shaped.rms_a * 1000.0, 1).c_str(),
+              fixed_text(sine.peak_a * 1000.0, 1).c_str(), fixed_text(sine.rms_a * 1000.0, 1).c_str());
 }
 
 void print_words(const SweepShape& shape, const Project& project, double took_ms) {
   print_table(shape, image_plan(project));
   if (shape.better) {
     std::printf("worst smear %s D instead of %s D, mean %s D instead of %s D, with harmonics up to %d (%s Hz)\n",
-                number_text(worst_smear_d(shape.shaped), 4).c_str(), number_text(worst_smear_d(shape.sine), 4).c_str(),
-                number_text(mean_smear_d(shape.shaped), 4).c_str(), number_text(mean_smear_d(shape.sine), 4).c_str(),
-                shape.highest_harmonic, short_number(shape.highest_harmonic * project.sweep.frequency_hz).c_str());
+                fixed_text(worst_smear_d(shape.shaped), 4).c_str(), fixed_text(worst_smear_d(shape.sine), 4).c_str(),
+                fixed_text(mean_smear_d(shape.shaped), 4).c_str(), fixed_text(mean_smear_d(shape.sine), 4).c_str(),
+                shape.highest_harmonic, short_text(shape.highest_harmonic * project.sweep.frequency_hz).c_str());
     print_load("left", shape.sine_load.left, shape.shaped_load.left);
     print_load("right", shape.sine_load.right, shape.shaped_load.right);
   } else {
     std::puts("nothing better than the sine within these limits:");
   }
   for (const ShapeBound& bound : shape.bounds) std::printf("- %s\n", describe(bound).c_str());
-  std::printf("found in %s ms\n", number_text(took_ms, 0).c_str());
+  std::printf("found in %s ms\n", fixed_text(took_ms, 0).c_str());
 }
 
 ExitStatus shape(const Options& options, const LoadedProject& loaded) {
@@ -183,7 +184,7 @@ ExitStatus take_power(const Options& options, const LoadedProject& loaded) {
         {"project", saved->string()}, {"left_drive", value_of(load.left)}, {"right_drive", value_of(load.right)}});
   } else {
     std::printf("%s: the power of %s, driven with at most %s A\n", saved->c_str(), options.power.c_str(),
-                short_number(std::max(load.left.peak_a, load.right.peak_a)).c_str());
+                short_text(std::max(load.left.peak_a, load.right.peak_a)).c_str());
   }
   return ExitStatus::done;
 }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "core/base/number_words.h"
 #include "editor/cli/one_line.h"
 #include "io/json/json.h"
 
@@ -26,7 +27,7 @@ const char* word(Severity severity) {
 
 std::string amount_text(const Amount& amount) {
   const std::string unit = amount.unit.empty() ? "" : " " + amount.unit;
-  return short_number(amount.value) + unit + ", limit " + short_number(amount.limit) + unit;
+  return short_text(amount.value) + unit + ", limit " + short_text(amount.limit) + unit;
 }
 
 }  // namespace
@@ -91,20 +92,6 @@ std::string table_text(const std::vector<Column>& columns, const std::vector<std
   };
   std::string text = line([&](std::size_t c) -> const std::string& { return columns[c].title; });
   for (const auto& row : rows) text += line([&](std::size_t c) -> const std::string& { return row[c]; });
-  return text;
-}
-
-std::string number_text(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  const std::string_view digits(text);
-  const bool zero = digits.find_first_not_of("-0.") == std::string_view::npos;
-  return zero && text[0] == '-' ? std::string(text + 1) : std::string(text);
-}
-
-std::string short_number(double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.6g", value == 0.0 ? 0.0 : value);
   return text;
 }
 

@@ -35,10 +35,4 @@ struct Column {
 };
 std::string table_text(const std::vector<Column>& columns, const std::vector<std::vector<std::string>>& rows);
 
-/// A number with `decimals` places, without a minus before zero.
-std::string number_text(double value, int decimals);
-
-/// A number as short as it reads back to about six digits: 0.5, 1200, 1.2e-07.
-std::string short_number(double value);
-
 }  // namespace focalstage

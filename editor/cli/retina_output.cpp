@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/number_words.h"
 #include "editor/cli/output.h"
 
 namespace focalstage {
@@ -33,7 +34,7 @@ Value thing_value(const RetinaReport& report, std::size_t i) {
   return value;
 }
 
-std::string or_dash(bool known, double value, int decimals) { return known ? number_text(value, decimals) : "-"; }
+std::string or_dash(bool known, double value, int decimals) { return known ? fixed_text(value, decimals) : "-"; }
 
 }  // namespace
 
@@ -66,10 +67,10 @@ Value retina_value(const RetinaRun& run, const RetinaView& view, const RetinaInp
 std::string retina_text(const RetinaRun& run, const RetinaView& view, const RetinaInput& input,
                         const RetinaReport& report) {
   std::string text = run.picture + ": the " + (view.eye == Side::left ? "left" : "right") + " eye focused at " +
-                     short_number(run.focus_m) + " m (" + short_number(view.focus_d) + " D), " +
+                     short_text(run.focus_m) + " m (" + short_text(view.focus_d) + " D), " +
                      std::to_string(input.exposures.size()) + " exposures\n";
   if (report.leaked > 0.0) {
-    text += number_text(100.0 * report.leaked, 1) +
+    text += fixed_text(100.0 * report.leaked, 1) +
             " % of the light was meant for the other eye: a shutter moves while it is shown\n";
   }
   std::vector<std::vector<std::string>> rows;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/base/number_words.h"
 #include "editor/cli/output.h"
 
 namespace focalstage {
@@ -37,7 +38,7 @@ Value value_of(const SlotReport& slot) {
 }
 
 std::string signed_number(double value, int decimals) {
-  const std::string text = number_text(value, decimals);
+  const std::string text = fixed_text(value, decimals);
   return text.starts_with('-') ? text : "+" + text;
 }
 
@@ -50,7 +51,7 @@ std::vector<std::string> row_of(const SlotReport& slot) {
           std::to_string(slot.image),
           signed_number(slot.asked_power_d, 3),
           signed_number(slot.delivered_power_d, 3),
-          number_text(slot.asked_s * 1e3, 3),
+          fixed_text(slot.asked_s * 1e3, 3),
           signed_number(off_us, 1),
           yes_no(slot.right_image),
           yes_no(slot.own_shutter_open),

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/base/number_words.h"
 #include "editor/cli/output.h"
 
 namespace focalstage {
@@ -62,17 +63,17 @@ std::vector<PlotTick> metre_ticks(double from_d, double to_d) {
     const double at_d = 1.0 / distance_m;
     bool free = at_d >= from_d && at_d <= to_d;
     for (const PlotTick& tick : ticks) free = free && std::abs(tick.at - at_d) >= apart_d;
-    if (free) ticks.push_back({at_d, short_number(distance_m)});
+    if (free) ticks.push_back({at_d, short_text(distance_m)});
   }
   if (ticks.size() >= 3) return ticks;
   ticks = round_ticks(from_d, to_d, 5);  // a narrow range: no round distances
-  for (PlotTick& tick : ticks) tick.text = tick.at > 0.0 ? number_text(1.0 / tick.at, 4) : "\u221e";
+  for (PlotTick& tick : ticks) tick.text = tick.at > 0.0 ? fixed_text(1.0 / tick.at, 4) : "\u221e";
   return ticks;
 }
 
 std::string who(const SweepRun& run, const RetinaView& view) {
-  return std::string("the ") + (view.eye == Side::left ? "left" : "right") + " eye, pupil " +
-         short_number(run.pupil_mm) + " mm, frame " + std::to_string(run.frame);
+  return std::string("the ") + (view.eye == Side::left ? "left" : "right") + " eye, pupil " + short_text(run.pupil_mm) +
+         " mm, frame " + std::to_string(run.frame);
 }
 
 }  // namespace
@@ -144,7 +145,7 @@ Value sweep_value(const SweepRun& run, const RetinaView& view, const FocalSweep&
 
 std::string sweep_text(const SweepRun& run, const RetinaView& view, const FocalSweep& sweep) {
   std::string text = run.folder + ": " + std::to_string(run.range.count) + " pictures from " +
-                     short_number(run.range.from_d) + " D to " + short_number(run.range.to_d) +
+                     short_text(run.range.from_d) + " D to " + short_text(run.range.to_d) +
                      " D, contrast.csv, contrast.png; " + who(run, view) + "\n";
   std::vector<std::vector<std::string>> rows;
   bool any = false;
@@ -152,9 +153,9 @@ std::string sweep_text(const SweepRun& run, const RetinaView& view, const FocalS
     const std::optional<FocusPeak>& peak = sweep.peaks[i];
     any = any || peak.has_value();
     rows.push_back({sweep.things[i].name, sweep.things[i].kind == SeenThing::Kind::object ? "object" : "surface",
-                    std::to_string(sweep.looks.front()[i].pixels), peak ? number_text(peak->focus_d, 3) : "-",
-                    peak && peak->focus_d > 0.0 ? number_text(1.0 / peak->focus_d, 3) : "-",
-                    peak ? number_text(peak->sharpness, 2) : "-",
+                    std::to_string(sweep.looks.front()[i].pixels), peak ? fixed_text(peak->focus_d, 3) : "-",
+                    peak && peak->focus_d > 0.0 ? fixed_text(1.0 / peak->focus_d, 3) : "-",
+                    peak ? fixed_text(peak->sharpness, 2) : "-",
                     !peak          ? ""
                     : peak->inside ? ""
                                    : "at the end of the sweep, perhaps beyond"});

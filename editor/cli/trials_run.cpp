@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "core/base/number_words.h"
 #include "core/study/scripted.h"
 #include "editor/cli/interrupt.h"
 #include "editor/cli/output.h"
@@ -71,8 +72,8 @@ Result<std::optional<double>> interpupillary_of(const TrialsOptions& options, co
   if (log.responses().empty()) return given;
   const double before_mm = log.responses().back().interpupillary_mm;
   if (!given || *given == before_mm) return std::optional(before_mm);
-  return Fault{"study.show-differs", "--interpupillary-mm " + short_number(*given),
-               options.participant + " began with " + short_number(before_mm) + " mm",
+  return Fault{"study.show-differs", "--interpupillary-mm " + short_text(*given),
+               options.participant + " began with " + short_text(before_mm) + " mm",
                "leave the option out, or begin anew in another folder (--out)"};
 }
 

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "core/base/number_words.h"
 #include "core/study/plan.h"
 #include "editor/cli/output.h"
 #include "editor/cli/trials_actions.h"
@@ -58,7 +59,7 @@ std::string plan_text(const Study& study, const std::vector<TrialBlock>& plan) {
       rows.push_back({std::to_string(block.number), study.conditions[static_cast<std::size_t>(block.condition)].name,
                       std::to_string(trial.number), trial.training ? "training" : std::to_string(trial.repetition),
                       study.targets[static_cast<std::size_t>(trial.target)].name,
-                      number_text(trial.pointer_start_m * 1e3, 1)});
+                      fixed_text(trial.pointer_start_m * 1e3, 1)});
     }
   }
   return table_text(

@@ -1,10 +1,10 @@
 #include <memory>
 #include <utility>
 
+#include "core/base/number_words.h"
 #include "core/schedule/shape_words.h"
 #include "core/schedule/sweep_shape.h"
 #include "editor/session/command_list.h"
-#include "editor/tools/fixed_text.h"
 
 namespace focalstage {
 namespace {

@@ -2,11 +2,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/number_words.h"
 #include "core/optics/vergence.h"
 #include "editor/session/edits.h"
 #include "editor/session/property_rows.h"
 #include "editor/tools/depth_handle.h"
-#include "editor/tools/fixed_text.h"
 
 namespace focalstage {
 namespace {

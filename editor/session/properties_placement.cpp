@@ -1,10 +1,10 @@
 // Where things stand, how large they are, how they move and what they are called.
 #include <array>
 
+#include "core/base/number_words.h"
 #include "editor/session/angles.h"
 #include "editor/session/edits.h"
 #include "editor/session/property_rows.h"
-#include "editor/tools/fixed_text.h"
 #include "editor/tools/pose_edits.h"
 
 namespace focalstage {

@@ -5,10 +5,10 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "core/base/number_words.h"
 #include "core/schedule/projector_models.h"
 #include "editor/session/edits.h"
 #include "editor/session/property_rows.h"
-#include "editor/tools/fixed_text.h"
 
 namespace focalstage {
 namespace {

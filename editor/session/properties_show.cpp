@@ -2,11 +2,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/number_words.h"
 #include "core/optics/vergence.h"
 #include "editor/session/angles.h"
 #include "editor/session/edits.h"
 #include "editor/session/property_rows.h"
-#include "editor/tools/fixed_text.h"
 #include "editor/tools/sight_frame.h"
 
 namespace focalstage {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "editor/tools/fixed_text.h"
+#include "core/base/number_words.h"
 
 namespace focalstage {
 namespace {

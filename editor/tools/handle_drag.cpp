@@ -10,7 +10,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "editor/tools/fixed_text.h"
+#include "core/base/number_words.h"
 #include "editor/tools/nearest_on_line.h"
 
 namespace focalstage {

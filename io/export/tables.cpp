@@ -1,7 +1,6 @@
 #include "io/export/tables.h"
 
-#include <charconv>
-
+#include "core/scene/number_text.h"
 #include "io/export/image_name.h"
 
 namespace focalstage {
@@ -25,12 +24,6 @@ class Row {
 };
 
 }  // namespace
-
-std::string number_text(double value) {
-  char text[64];
-  const std::to_chars_result end = std::to_chars(text, text + sizeof text, value);
-  return {text, end.ptr};
-}
 
 std::string schedule_csv(const ShowHeader& header) {
   std::string csv = "slot,image,eye,kind,slice,start_s,exposure_s,trigger_s,power_d,smear_d\n";

@@ -6,9 +6,6 @@
 
 namespace focalstage {
 
-/// The shortest decimal text that reads back to the same double.
-std::string number_text(double value);
-
 /// One row per exposure of a period, in time order, under a line that names each column with its unit.
 std::string schedule_csv(const ShowHeader& header);
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/scene/number_text.h"
 #include "io/export/image_name.h"
-#include "io/export/tables.h"
 
 namespace focalstage {
 namespace {

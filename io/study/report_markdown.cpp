@@ -3,6 +3,7 @@
 #include <numbers>
 #include <set>
 
+#include "core/base/number_words.h"
 #include "io/study/report.h"
 #include "io/study/report_words.h"
 

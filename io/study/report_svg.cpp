@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/number_words.h"
 #include "io/study/report.h"
 #include "io/study/report_words.h"
 

@@ -1,16 +1,8 @@
 #include "io/study/report_words.h"
 
-#include <cstdio>
-#include <string_view>
+#include "core/base/number_words.h"
 
 namespace focalstage {
-
-std::string fixed_text(double value, int decimals) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  const bool zero = std::string_view(text).find_first_not_of("-0.") == std::string_view::npos;
-  return zero && text[0] == '-' ? std::string(text + 1) : std::string(text);
-}
 
 std::string mm_text(double length_m, int decimals) { return fixed_text(length_m * 1e3, decimals); }
 

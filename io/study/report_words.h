@@ -7,9 +7,6 @@
 
 namespace focalstage {
 
-/// "-1.93"
-std::string fixed_text(double value, int decimals);
-
 /// A length as millimetres, with `decimals` places.
 std::string mm_text(double length_m, int decimals = 2);
 

@@ -3,7 +3,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
+
+#include "core/base/number_words.h"
 
 namespace focalstage {
 namespace {
@@ -40,12 +41,7 @@ std::optional<double> factor(std::string_view typed, std::string_view unit) {
 }  // namespace
 
 std::string number_text(double value, int digits, std::string_view unit) {
-  std::array<char, 64> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.*f", digits, value);
-  std::string text = buffer.data();
-  if (text.front() == '-' && text.find_first_of("123456789") == std::string::npos && std::isfinite(value)) {
-    text.erase(0, 1);
-  }
+  std::string text = fixed_text(value, digits);
   if (!unit.empty() && unit != "°" && unit != "%") text += ' ';
   return text += unit;
 }

@@ -4,9 +4,9 @@
 #include <array>
 #include <cmath>
 
+#include "core/base/number_words.h"
 #include "editor/session/edits.h"
 #include "editor/session/session.h"
-#include "editor/tools/fixed_text.h"
 #include "editor/window/base/fonts.h"
 #include "editor/window/base/icons.h"
 #include "editor/window/base/im.h"

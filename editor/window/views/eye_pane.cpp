@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/number_words.h"
 #include "core/percept/conflict.h"
 #include "editor/session/session.h"
-#include "editor/tools/fixed_text.h"
 #include "editor/window/base/chips.h"
 #include "editor/window/base/im.h"
 #include "editor/window/base/widgets.h"

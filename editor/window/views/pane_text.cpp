@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "editor/tools/fixed_text.h"
+#include "core/base/number_words.h"
 #include "editor/window/base/fonts.h"
 #include "editor/window/base/im.h"
 #include "editor/window/base/theme.h"

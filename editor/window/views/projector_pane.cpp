@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/number_words.h"
 #include "core/optics/image_plan.h"
 #include "editor/preview/false_colour.h"
 #include "editor/session/session.h"
-#include "editor/tools/fixed_text.h"
 #include "editor/tools/slice_tint.h"
 #include "editor/window/base/chips.h"
 #include "editor/window/base/im.h"

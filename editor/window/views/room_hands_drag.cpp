@@ -7,7 +7,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "editor/tools/fixed_text.h"
+#include "core/base/number_words.h"
 #include "editor/tools/pose_edits.h"
 #include "editor/window/views/room_hands.h"
 

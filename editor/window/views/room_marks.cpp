@@ -6,9 +6,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/base/number_words.h"
 #include "core/optics/eye.h"
 #include "core/optics/projector_model.h"
-#include "editor/tools/fixed_text.h"
 #include "editor/tools/slice_tint.h"
 #include "editor/window/base/fonts.h"
 #include "editor/window/base/theme.h"

@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "editor/tools/fixed_text.h"
+#include "core/base/number_words.h"
 #include "editor/tools/known_bounds.h"
 #include "editor/tools/measure.h"
 #include "editor/window/base/fonts.h"

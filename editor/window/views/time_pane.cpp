@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
+#include "core/base/number_words.h"
 #include "editor/session/session.h"
-#include "editor/tools/fixed_text.h"
 #include "editor/tools/slice_tint.h"
 #include "editor/window/base/chips.h"
 #include "editor/window/base/im.h"

@@ -54,14 +54,6 @@ TEST_CASE("a table is as wide as its widest cells, numbers flush right") {
   CHECK(table_text(columns, {}) == "eye  power D\n");
 }
 
-TEST_CASE("numbers have no minus before zero") {
-  CHECK(number_text(-0.0001, 3) == "0.000");
-  CHECK(number_text(-0.0006, 3) == "-0.001");
-  CHECK(number_text(1.0, 1) == "1.0");
-  CHECK(short_number(-0.0) == "0");
-  CHECK(short_number(0.30000000001) == "0.3");
-}
-
 TEST_CASE("durations read as a clock does") {
   CHECK(duration_text(0.4) == "0 s");
   CHECK(duration_text(59.4) == "59 s");
