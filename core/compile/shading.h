@@ -43,9 +43,6 @@ class Shader {
   glm::dvec3 uniform_color_{0.0};
 };
 
-/// Rec. 709 luminance of linear RGB.
-inline double luminance(const glm::dvec3& linear) { return 0.2126 * linear.r + 0.7152 * linear.g + 0.0722 * linear.b; }
-
 /// A texture at `uv` in linear light: bilinear between texel centres, v = 0 at the bottom row.
 glm::dvec3 sample_texture(const Texture& texture, const glm::dvec2& uv);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/base/luminance.h"
+
 namespace focalstage {
 namespace {
 
@@ -35,7 +37,7 @@ void pin(const EyeView& view, const TileNearest& nearest, int slice_index, TileW
 
 void add(const SliceRun& run, const glm::dvec3& color, float weight, int i, TileLight& light) {
   if (run.channels == 1) {
-    light.channel[0][i] += weight * static_cast<float>(luminance(color));
+    light.channel[0][i] += weight * static_cast<float>(luminance(color.r, color.g, color.b));
     return;
   }
   for (int c = 0; c < 3; ++c) light.channel[c][i] += weight * static_cast<float>(color[c]);
@@ -85,7 +87,7 @@ std::uint32_t drawable_at(const EyeView& view, std::int32_t index) {
 }
 
 float level(const SliceRun& run, const glm::dvec3& color, int channel) {
-  return static_cast<float>(run.channels == 1 ? luminance(color) : color[channel]);
+  return static_cast<float>(run.channels == 1 ? luminance(color.r, color.g, color.b) : color[channel]);
 }
 
 void color_each(const Shown& shown, TileLight& light) {

@@ -6,6 +6,7 @@
 
 #include <glm/common.hpp>
 
+#include "core/base/luminance.h"
 #include "core/compile/ray_samples.h"
 
 namespace focalstage {
@@ -152,7 +153,7 @@ void StackTarget::add_ray(const StackTile& tile, std::size_t focus, const Seen& 
     const glm::dvec3 color = all_.shaders[triangle.drawable].color(triangle, centre.x, centre.y);
     const std::size_t cell = focus * tile_samples + static_cast<std::size_t>(i);
     if (channels_ == 1) {
-      out[cell] += static_cast<float>(luminance(color));
+      out[cell] += static_cast<float>(luminance(color.r, color.g, color.b));
       continue;
     }
     for (std::size_t c = 0; c < 3; ++c) {

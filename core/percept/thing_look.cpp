@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/luminance.h"
 #include "core/retina/slice_eye.h"
 
 namespace focalstage {
@@ -16,7 +17,7 @@ class Luminance {
   double at(int x, int y) const {
     const float* rgb = &image_.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width_px) +
                                         static_cast<std::size_t>(x))];
-    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+    return luminance<double>(rgb[0], rgb[1], rgb[2]);
   }
 
   /// Squared, between the pixel's neighbours; none at the picture's edge.

@@ -9,6 +9,8 @@
 
 #include <glm/vec2.hpp>
 
+#include "core/base/luminance.h"
+
 namespace focalstage {
 
 /// Linear light of each projector code: (code / (2^bits - 1))^gamma, the encoder's inverse.
@@ -69,11 +71,11 @@ class LightSampler {
   glm::vec2 steep_;
 };
 
-/// Rec. 709 luminance at a place within the image.
+/// Luminance (Rec. 709) at a place within the image.
 inline double luminance_at(const SliceLight& light, float x_px, float y_px) {
   if (light.channels == 1) return LightSampler<1>(light).at(x_px, y_px)[0];
   const std::array<float, 3> rgb = LightSampler<3>(light).at(x_px, y_px);
-  return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+  return luminance<double>(rgb[0], rgb[1], rgb[2]);
 }
 
 /// Reads the codes themselves: for the sixteenths of a pixel, each so small that the projector's pixels are large

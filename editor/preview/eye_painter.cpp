@@ -5,14 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/luminance.h"
 #include "core/percept/conflict.h"
 #include "core/percept/seen_frame.h"
 #include "editor/tools/srgb.h"
 
 namespace focalstage {
 namespace {
-
-float luminance(const float* rgb) { return 0.2126f * rgb[0] + 0.7152f * rgb[1] + 0.0722f * rgb[2]; }
 
 /// The image of `side` whose exposure is on at a moment of the sweep, or the nearest to it in time.
 int image_at(const Schedule& schedule, Side side, double time_s) {
@@ -113,9 +112,9 @@ Status EyePainter::paint_panel(const CompiledSlices& compiled, const EyeWish& wi
       if (look != EyeLook::red_cyan) {
         for (std::size_t c = 0; c < 3; ++c) rgb[c] = srgb_code(light[c]);
       } else if (side == Side::left) {
-        rgb[0] = srgb_code(luminance(light));
+        rgb[0] = srgb_code(luminance(light[0], light[1], light[2]));
       } else {
-        rgb[1] = rgb[2] = srgb_code(luminance(light));
+        rgb[1] = rgb[2] = srgb_code(luminance(light[0], light[1], light[2]));
       }
     }
   }
