@@ -12,6 +12,7 @@
 #include "core/compile/surface_sights.h"
 #include "core/optics/eye.h"
 #include "core/optics/look.h"
+#include "core/optics/vergence.h"
 
 namespace focalstage {
 namespace {
@@ -40,11 +41,6 @@ struct Tile {
   double vergence_d[tile_samples];  ///< at which the picture is wanted
   bool any = false;
 };
-
-double wanted_vergence_d(const Depth& depth, double placed_m) {
-  if (depth.mode == DepthMode::fixed) return depth.vergence_d;
-  return 1.0 / placed_m + (depth.mode == DepthMode::offset ? depth.vergence_d : 0.0);
-}
 
 Tile look_at_objects(const Survey& survey, int tile_column, int tile_row) {
   Tile tile;

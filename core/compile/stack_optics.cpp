@@ -15,7 +15,7 @@ namespace {
 void set_vergences(StackTile& tile, const LookTile& looks, const StackPlan& plan, const std::vector<SliceSetup>& slices,
                    double lens_to_pupil_m) {
   const auto at_pupil_d = [&](double power_d) {
-    return vergence_from_pupil_d(image_vergence_d(looks.surface_mean_m, power_d), lens_to_pupil_m);
+    return vergence_at_pupil_d(image_vergence_d(looks.surface_mean_m, power_d), lens_to_pupil_m);
   };
   double before_d = 0.0;
   for (std::size_t n = 0; n < plan.slice_count(); ++n) {

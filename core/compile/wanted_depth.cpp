@@ -34,9 +34,9 @@ WantedVergence wanted_vergence(const VergenceRule& rule, const std::vector<Slice
                                double inverse_m, double lens_to_pupil_m) {
   if (rule.slice >= 0) {
     const double power_d = slices[static_cast<std::size_t>(rule.slice)].power_d;
-    return {0.0, vergence_from_pupil_d(image_vergence_d(surface_m, power_d), lens_to_pupil_m)};
+    return {0.0, vergence_at_pupil_d(image_vergence_d(surface_m, power_d), lens_to_pupil_m)};
   }
-  if (rule.gain == 0.0f) return {0.0, vergence_from_pupil_d(rule.offset_d, lens_to_pupil_m)};
+  if (rule.gain == 0.0f) return {0.0, vergence_at_pupil_d(rule.offset_d, lens_to_pupil_m)};
   if (rule.offset_d == 0.0f) return {};
   // From r at the pupil to r / (1 - d_e r) at the lens, the offset added, and back.
   const double bent = rule.offset_d * lens_to_pupil_m;

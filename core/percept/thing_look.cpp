@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "core/base/luminance.h"
-#include "core/retina/slice_eye.h"
+#include "core/optics/vergence.h"
 
 namespace focalstage {
 namespace {

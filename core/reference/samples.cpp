@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/optics/look.h"
+#include "core/optics/vergence.h"
 #include "core/reference/colour.h"
 
 namespace focalstage {
@@ -11,11 +12,6 @@ namespace {
 
 constexpr double near_plane_m = 1e-3;     ///< nothing nearer to the lens centre is seen
 constexpr double hidden_by_share = 1e-4;  ///< a surface hides a point that lies this much deeper along the same line
-
-double wanted_vergence_d(const Depth& depth, double placed_m) {
-  if (depth.mode == DepthMode::fixed) return depth.vergence_d;
-  return 1.0 / placed_m + (depth.mode == DepthMode::offset ? depth.vergence_d : 0.0);
-}
 
 }  // namespace
 

@@ -5,8 +5,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/optics/vergence.h"
 #include "core/retina/lens_rim.h"
-#include "core/retina/slice_eye.h"
 #include "core/retina/slice_maps.h"
 
 namespace focalstage {

@@ -1,6 +1,6 @@
 #include "core/retina/focus.h"
 
-#include "core/retina/slice_eye.h"
+#include "core/optics/vergence.h"
 #include "core/retina/slice_maps.h"
 
 namespace focalstage {

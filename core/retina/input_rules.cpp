@@ -3,8 +3,6 @@
 #include <cmath>
 #include <string>
 
-#include "core/retina/slice_eye.h"
-
 namespace focalstage {
 namespace {
 

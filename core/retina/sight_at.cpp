@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/retina/slice_eye.h"
+#include "core/optics/vergence.h"
 
 namespace focalstage {
 namespace {

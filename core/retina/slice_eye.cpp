@@ -14,14 +14,4 @@ SliceEye slice_eye(const Eye& eye, double power_d) {
   return slice;
 }
 
-double vergence_at_pupil_d(double vergence_at_lens_d, double lens_to_pupil_m) {
-  const double grown = 1.0 + vergence_at_lens_d * lens_to_pupil_m;
-  return grown > 0.0 ? vergence_at_lens_d / grown : -most_vergence_d;
-}
-
-double vergence_at_lens_d(double vergence_at_pupil_d, double lens_to_pupil_m) {
-  const double shrunk = 1.0 - vergence_at_pupil_d * lens_to_pupil_m;
-  return shrunk > 0.0 ? vergence_at_pupil_d / shrunk : most_vergence_d;
-}
-
 }  // namespace focalstage

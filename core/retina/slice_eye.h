@@ -23,18 +23,6 @@ struct SliceEye {
   bool sees() const { return narrowing > 0.0; }
 };
 
-/// Stands for the vergence of what focuses between lens and pupil.
-inline constexpr double most_vergence_d = 1e6;
-
 SliceEye slice_eye(const Eye& eye, double power_d);
-
-/// A vergence at the lens centre as it is at the pupil, d_e behind it: 1 / (1/a + d_e). In front of the eye's own
-/// optics only this one counts: a point at vergence a blurs to a disc of radius p |a - a0| / 2 of the tangent plane,
-/// exactly, whatever its direction (a ray through the pupil at height h meets the retina of an eye focused at a0 where
-/// the look u - h (a - a0) does). A picture that would lie between lens and pupil gets the most negative.
-double vergence_at_pupil_d(double vergence_at_lens_d, double lens_to_pupil_m);
-
-/// The other way.
-double vergence_at_lens_d(double vergence_at_pupil_d, double lens_to_pupil_m);
 
 }  // namespace focalstage

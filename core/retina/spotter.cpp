@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "core/optics/vergence.h"
+
 namespace focalstage {
 namespace {
 

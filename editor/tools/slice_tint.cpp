@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 
 #include "core/optics/assignment.h"
+#include "core/optics/vergence.h"
 #include "core/percept/conflict.h"
 
 namespace focalstage {
@@ -59,16 +60,7 @@ SurfaceGrid surface_grid(const SightFrame& sight, const Stage& stage, const Look
 
 /// The power wanted by what stands at `axial_m` before a surface of `behind_d`.
 double wanted_power_d(const Project& project, const Depth& depth, double axial_m, double behind_d) {
-  switch (depth.mode) {
-    case DepthMode::placed:
-      return behind_d - 1.0 / axial_m;
-    case DepthMode::fixed:
-      return behind_d - depth.vergence_d;
-    case DepthMode::offset:
-      return behind_d - 1.0 / axial_m - depth.vergence_d;
-    case DepthMode::slice:
-      break;
-  }
+  if (depth.mode != DepthMode::slice) return behind_d - wanted_vergence_d(depth, axial_m);
   const auto last = static_cast<int>(project.slices.powers_d.size()) - 1;
   return project.slices.powers_d[static_cast<std::size_t>(std::clamp(depth.index, 0, last))];
 }

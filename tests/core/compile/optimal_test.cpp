@@ -35,7 +35,7 @@ std::vector<double> focuses_d(const CompileSettings& settings) {
   std::vector<double> foci;
   for (const double power_d : settings.slices.powers_d) {
     if (!foci.empty()) foci.push_back(0.0);
-    foci.push_back(vergence_from_pupil_d(image_vergence_d(0.5, power_d), settings.lens_to_pupil_m));
+    foci.push_back(vergence_at_pupil_d(image_vergence_d(0.5, power_d), settings.lens_to_pupil_m));
   }
   for (std::size_t i = 1; i < foci.size(); i += 2) foci[i] = 0.5 * (foci[i - 1] + foci[i + 1]);
   return foci;

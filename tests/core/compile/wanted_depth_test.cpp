@@ -37,7 +37,7 @@ TEST_CASE("an offset is affine in the inverse depth to a thousandth of itself") 
   const WantedVergence wanted = wanted_vergence(rule, {}, 0.5, 2.0, lens_to_pupil_m);
   for (const double r : {1.2, 1.6, 2.0, 2.4, 2.8}) {
     const double at_lens_d = r / (1.0 - lens_to_pupil_m * r) - 0.8;
-    CHECK(std::abs(wanted.at(r) - vergence_from_pupil_d(at_lens_d, lens_to_pupil_m)) < 0.8e-3);
+    CHECK(std::abs(wanted.at(r) - vergence_at_pupil_d(at_lens_d, lens_to_pupil_m)) < 0.8e-3);
   }
 }
 

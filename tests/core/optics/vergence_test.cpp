@@ -12,8 +12,22 @@ TEST_CASE("the power that is needed puts the image where it was asked for") {
 }
 
 TEST_CASE("a vergence at the pupil is that of the same point, further off by the lens' distance") {
-  CHECK(vergence_from_pupil_d(2.0, 0.015) == doctest::Approx(1.0 / 0.515));
-  CHECK(vergence_from_pupil_d(0.0, 0.015) == 0.0);
-  CHECK(vergence_from_pupil_d(-1.0, 0.015) == doctest::Approx(1.0 / (-1.0 + 0.015)));
-  CHECK(vergence_from_pupil_d(-1.0 / 0.015 - 1.0, 0.015) < -1e5);  // between lens and pupil
+  CHECK(vergence_at_pupil_d(2.0, 0.015) == doctest::Approx(1.0 / 0.515));
+  CHECK(vergence_at_pupil_d(0.0, 0.015) == 0.0);
+  CHECK(vergence_at_pupil_d(-1.0, 0.015) == doctest::Approx(1.0 / (-1.0 + 0.015)));
+  CHECK(vergence_at_pupil_d(-1.0 / 0.015 - 1.0, 0.015) < -1e5);  // between lens and pupil
+}
+
+TEST_CASE("from pupil to lens and back is where it was") {
+  for (const double at_lens_d : {-3.0, 0.0, 0.4, 2.0, 9.0}) {
+    CHECK(vergence_at_lens_d(vergence_at_pupil_d(at_lens_d, 0.015), 0.015) == doctest::Approx(at_lens_d));
+  }
+  CHECK(vergence_at_lens_d(1.0 / 0.515, 0.015) == doctest::Approx(2.0));
+  CHECK(vergence_at_lens_d(1.0 / 0.010, 0.015) > 1e5);  // between lens and pupil
+}
+
+TEST_CASE("a picture is wanted where its thing stands, at a distance of its own, or so much nearer") {
+  CHECK(wanted_vergence_d({DepthMode::placed, 3.0}, 0.5) == 2.0);
+  CHECK(wanted_vergence_d({DepthMode::fixed, 3.0}, 0.5) == 3.0);
+  CHECK(wanted_vergence_d({DepthMode::offset, 3.0}, 0.5) == 5.0);
 }
