@@ -1,25 +1,17 @@
 #include "core/schedule/shutter.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "core/schedule/periodic.h"
 
 namespace focalstage {
-namespace {
-
-/// `time_s` within [0, period).
-double wrapped(double time_s, double period_s) {
-  const double rest_s = time_s - std::floor(time_s / period_s) * period_s;
-  return rest_s < period_s ? rest_s : 0.0;
-}
-
-}  // namespace
 
 ShutterPlan plan_shutters(const Glasses& glasses, double period_s, double handover_s) {
   const double opening_s = glasses.shutter_open_ms / 1000.0;
   const double closing_s = glasses.shutter_close_ms / 1000.0;
   const double half_window_s = std::max(opening_s, closing_s) / 2.0;
-  const auto told_to_open = [&](double centre_s) { return wrapped(centre_s + half_window_s - opening_s, period_s); };
-  const auto told_to_close = [&](double centre_s) { return wrapped(centre_s - half_window_s, period_s); };
+  const auto told_to_open = [&](double centre_s) { return wrapped_s(centre_s + half_window_s - opening_s, period_s); };
+  const auto told_to_close = [&](double centre_s) { return wrapped_s(centre_s - half_window_s, period_s); };
 
   ShutterPlan plan;
   plan.told.left = {told_to_open(0.0), told_to_close(handover_s)};

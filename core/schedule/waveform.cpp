@@ -5,6 +5,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/schedule/periodic.h"
+
 namespace focalstage {
 namespace {
 
@@ -70,15 +72,10 @@ Result<PowerCurve> PowerCurve::make(const Sweep& sweep, Side eye) {
 
 double PowerCurve::power_d(double time_s) const {
   const double turns = time_s / period_s_;
+  if (!measured_d_.empty()) return periodic_at(measured_d_, turns);
   const double phase = turns - std::floor(turns);
-  if (measured_d_.empty()) {
-    const double middle_d = (min_d_ + max_d_) / 2.0;
-    return middle_d - (max_d_ - min_d_) / 2.0 * std::cos(2.0 * std::numbers::pi * phase);
-  }
-  const double place = phase * static_cast<double>(measured_d_.size());
-  const double whole = std::floor(place);
-  const std::size_t i = static_cast<std::size_t>(whole) % measured_d_.size();
-  return std::lerp(measured_d_[i], measured_d_[(i + 1) % measured_d_.size()], place - whole);
+  const double middle_d = (min_d_ + max_d_) / 2.0;
+  return middle_d - (max_d_ - min_d_) / 2.0 * std::cos(2.0 * std::numbers::pi * phase);
 }
 
 std::optional<double> PowerCurve::passing_s(double power_d, Side eye) const {

@@ -9,6 +9,7 @@
 #include "core/check/check.h"
 #include "core/check/rig_differences.h"
 #include "core/schedule/lens_response.h"
+#include "core/schedule/periodic.h"
 #include "io/protocol/adopt.h"
 
 namespace focalstage {
@@ -40,14 +41,6 @@ Status without_errors(const Project& project, const ScheduleResult& schedule,
   return {};
 }
 
-/// A periodic, uniformly sampled curve, straight between its samples.
-double at(const std::vector<double>& samples, double turns) {
-  const double place = (turns - std::floor(turns)) * static_cast<double>(samples.size());
-  const auto i = static_cast<std::size_t>(place) % samples.size();
-  const double share = place - std::floor(place);
-  return samples[i] + share * (samples[(i + 1) % samples.size()] - samples[i]);
-}
-
 /// The show's own samples and triggers, not what its project says they should be.
 std::string schedule_differences(const ShowHeader& show, const RigDescription& rig) {
   constexpr double most_off_d = 0.02;
@@ -62,7 +55,7 @@ std::string schedule_differences(const ShowHeader& show, const RigDescription& r
   double worst_s = 0.0;
   for (const Slot& slot : schedule.slots) {
     const double turns = (slot.start_s + 0.5 * slot.exposure_s) / schedule.period_s;
-    worst_d = std::max(worst_d, std::abs(at(power_d[slot.eye], turns) - slot.power_d));
+    worst_d = std::max(worst_d, std::abs(periodic_at(power_d[slot.eye], turns) - slot.power_d));
     worst_s = std::max(worst_s, std::abs(slot.trigger_s + latency_s - slot.start_s));
   }
   std::string text;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/schedule/periodic.h"
 #include "editor/window/base/im.h"
 
 namespace focalstage {
@@ -28,14 +29,6 @@ void curve(const SweepAxes& axes, double from, double to, const Pen& pen, const 
 
 }  // namespace
 
-double sample_at(const std::vector<double>& samples, double share) {
-  if (samples.empty()) return 0.0;
-  const double at = share * static_cast<double>(samples.size());
-  const auto from = static_cast<std::size_t>(at) % samples.size();
-  const double part = at - std::floor(at);
-  return samples[from] * (1.0 - part) + samples[(from + 1) % samples.size()] * part;
-}
-
 void draw_powers(const SweepAxes& axes, const Sweep& sweep) {
   if (sweep.waveform.left || sweep.waveform.right) {
     curve(axes, 0.0, 1.0, {theme::with_alpha(power_colour, 0.3), 1.0f}, [&](double share) {
@@ -47,7 +40,7 @@ void draw_powers(const SweepAxes& axes, const Sweep& sweep) {
   const bool alike = samples.left == samples.right;
   for (const Side side : both_sides) {
     if (side == Side::right && alike) continue;
-    const auto power_d = [&](double share) { return sample_at(samples[side], share); };
+    const auto power_d = [&](double share) { return periodic_at(samples[side], share); };
     const Pen whole{theme::with_alpha(power_colour, alike ? 1.0 : 0.45), alike ? 2.0f : 1.0f};
     curve(axes, 0.0, 1.0, whole, power_d);
     if (alike || samples[side].empty()) continue;
@@ -64,7 +57,7 @@ void draw_offer(const SweepAxes& axes, const SolveOffer& offer) {
   for (const Side side : both_sides) {
     if (side == Side::right && samples.right == samples.left) continue;
     curve(axes, 0.0, 1.0, {theme::with_alpha(theme::green, 0.9), 1.5f},
-          [&](double share) { return sample_at(samples[side], share); });
+          [&](double share) { return periodic_at(samples[side], share); });
   }
   for (const Slot& slot : offer.schedule.slots) {
     list.AddCircle({axes.x(slot.start_s + 0.5 * slot.exposure_s), axes.y(slot.power_d)}, px(4), theme::green, 16,

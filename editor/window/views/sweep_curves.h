@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "core/schedule/schedule.h"
 #include "editor/session/solve_offer.h"
@@ -30,9 +29,6 @@ struct SweepAxes {
   double time_s(float at_x) const { return period_s * (at_x - plot.min.x) / plot.size.x; }
   double power_d(float at_y) const { return high_d - (high_d - low_d) * (at_y - plot.min.y) / plot.size.y; }
 };
-
-/// Lens power at a time of the period, from the samples that the rig gets.
-double sample_at(const std::vector<double>& samples, double share);
 
 /// The power of both lenses; faintly the sine that a waveform stands for, and of two lenses that differ the half that
 /// is not seen.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/number_words.h"
+#include "core/schedule/periodic.h"
 #include "editor/session/session.h"
 #include "editor/tools/slice_tint.h"
 #include "editor/window/base/chips.h"
@@ -232,7 +233,7 @@ void TimePane::draw_reading(const SweepAxes& axes) const {
   const double time_s = axes.time_s(at.x), share = time_s / axes.period_s;
   const PaneTooltip tooltip;
   text_line(fixed_text(time_s * 1e3, 2) + " ms");
-  text_line("lens " + signed_text(sample_at(axes.schedule->lens_power_d[Side::left], share), 3) + " D", power_colour);
+  text_line("lens " + signed_text(periodic_at(axes.schedule->lens_power_d[Side::left], share), 3) + " D", power_colour);
   for (const Side side : both_sides) {
     const bool open = is_open(axes.schedule->shutter[side], time_s);
     text_line(
