@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "core/study/plan.h"
+
 namespace focalstage {
 
 /// What a scripted participant's kind begins with; "human" is the other kind.
@@ -35,6 +37,9 @@ struct Response {
   bool counts() const { return !training && spoiled.empty(); }
   bool answered() const { return spoiled.empty() && !gave_up; }
 };
+
+/// The row of a trial of the plan, before anybody answers: what the plan says of it.
+Response response_to(const Study& study, const TrialBlock& block, const Trial& trial);
 
 inline bool is_scripted(const std::string& kind) { return kind.starts_with(scripted_prefix); }
 

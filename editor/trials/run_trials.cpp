@@ -117,17 +117,9 @@ Result<TrialChoice> Run::mend(const Fault& fault, bool repeats) {
 
 Status Run::write(const TrialInPlan& at, const TrialAnswer& answer, const std::string& spoiled,
                   Clock::time_point lit_at) {
-  Response row;
+  Response row = response_to(sitting_.study, at.block, at.trial);
   row.participant = sitting_.participant;
   row.kind = participant_.kind();
-  row.block = at.block.number;
-  row.condition = at.block.condition;
-  row.trial = at.trial.number;
-  row.training = at.trial.training;
-  row.target = at.trial.target;
-  row.repetition = at.trial.repetition;
-  row.actual_m = sitting_.study.targets[static_cast<std::size_t>(at.trial.target)].actual_m;
-  row.pointer_start_m = at.trial.pointer_start_m;
   row.gave_up = answer.kind == TrialAnswer::Kind::gave_up;
   row.response_m = answer.response_m;
   row.spoiled = spoiled;

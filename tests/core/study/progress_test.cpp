@@ -16,16 +16,8 @@ std::vector<Response> whole(const Study& study, const std::vector<TrialBlock>& p
   std::vector<Response> rows;
   for (const TrialBlock& block : plan) {
     for (const Trial& trial : block.trials) {
-      Response row;
+      Response row = response_to(study, block, trial);
       row.participant = study.participants[0];
-      row.block = block.number;
-      row.condition = block.condition;
-      row.trial = trial.number;
-      row.training = trial.training;
-      row.target = trial.target;
-      row.repetition = trial.repetition;
-      row.actual_m = study.targets[static_cast<std::size_t>(trial.target)].actual_m;
-      row.pointer_start_m = trial.pointer_start_m;
       row.response_m = row.actual_m;
       row.sitting = 1;
       rows.push_back(row);

@@ -15,20 +15,12 @@ using namespace focalstage;
 
 namespace {
 
-Response response_to(const Study& study, const std::string& participant, const TrialBlock& block, const Trial& trial,
-                     const ScriptedParticipant& script) {
+Response scripted_response(const Study& study, const std::string& participant, const TrialBlock& block,
+                           const Trial& trial, const ScriptedParticipant& script) {
   const auto answer = script.answer(study, participant, block, trial);
-  Response response;
+  Response response = response_to(study, block, trial);
   response.participant = participant;
   response.kind = scripted_prefix + script.name();
-  response.block = block.number;
-  response.condition = block.condition;
-  response.trial = trial.number;
-  response.training = trial.training;
-  response.target = trial.target;
-  response.repetition = trial.repetition;
-  response.actual_m = study.targets[static_cast<std::size_t>(trial.target)].actual_m;
-  response.pointer_start_m = trial.pointer_start_m;
   response.gave_up = !answer;
   response.response_m = answer.value_or(0.0);
   response.sitting = 1;
@@ -49,7 +41,7 @@ void answer(const std::filesystem::path& folder, const Study& study, int index, 
   for (const TrialBlock& block : plan_of(study, index)) {
     for (const Trial& trial : block.trials) {
       if (limit-- == 0) return;
-      REQUIRE(log->add(response_to(study, participant, block, trial, *script)));
+      REQUIRE(log->add(scripted_response(study, participant, block, trial, *script)));
     }
   }
   REQUIRE(log->add(QuestionAnswer{participant, scripted_prefix + script_name, 0, index == 1}));
@@ -96,7 +88,7 @@ TEST_CASE("people and scripts in one folder are no data") {
   auto log = AnswerLog::open(folder.path(), study, "P02");
   REQUIRE(log);
   const auto plan = plan_of(study, 1);
-  Response person = response_to(study, "P02", plan[0], plan[0].trials[0], *ScriptedParticipant::named("noisy"));
+  Response person = scripted_response(study, "P02", plan[0], plan[0].trials[0], *ScriptedParticipant::named("noisy"));
   person.kind = human_kind;
   REQUIRE(log->add(person));
   CHECK(load_answers(folder.path()).fault().code == "study.mixed");
@@ -134,7 +126,7 @@ TEST_CASE("people's report has no such warning, and one without answers has no f
   CHECK(report_svg(none).find("<svg") == 0);
   const auto plan = plan_of(answers.study, 0);
   answers.responses = {
-      response_to(answers.study, "P01", plan[0], plan[0].trials[1], *ScriptedParticipant::named("exact"))};
+      scripted_response(answers.study, "P01", plan[0], plan[0].trials[1], *ScriptedParticipant::named("exact"))};
   answers.responses[0].kind = human_kind;
   const StudyReport person = report_of(answers);
   CHECK(report_markdown(person, "").find("no human result") == std::string::npos);
