@@ -8,21 +8,18 @@
 
 #include "core/check/check.h"
 #include "core/optics/image_plan.h"
-#include "core/percept/conflict_meter.h"
 #include "core/schedule/schedule.h"
 #include "editor/pipeline/frame_queue.h"
+#include "editor/pipeline/measure_frames.h"
 #include "editor/pipeline/measure_needs.h"
 #include "io/show/writer.h"
 
 namespace focalstage {
 namespace {
 
-Fault cancelled(const std::string& where, const std::string& remedy) {
-  return {"compile.cancelled", where, "stopped before the end", remedy};
-}
-
 Fault cancelled(const CompileJob& job) {
-  return cancelled(job.show.string(), "the finished frames are kept; --resume goes on from them");
+  return {"compile.cancelled", job.show.string(), "stopped before the end",
+          "the finished frames are kept; --resume goes on from them"};
 }
 
 Result<FrameRange> range_of(const Project& project, const std::optional<FrameRange>& asked) {
@@ -53,10 +50,10 @@ Result<std::vector<Finding>> findings_of(const Source& source, const ScheduleRes
   return findings;
 }
 
-Result<CheckReport> checked(const Source& source, const ScheduleResult& schedule, Measured measured,
-                            const ConflictMeter& conflict, FrameRange frames, const std::stop_token& stop) {
+Result<CheckReport> checked(const Source& source, const ScheduleResult& schedule, Measured measured, FrameRange frames,
+                            const std::stop_token& stop) {
   CheckReport report;
-  report.conflicts = measured.conflicts = conflict.conflicts();
+  report.conflicts = measured.conflicts;
   auto findings = findings_of(source, schedule, std::move(measured), frames, stop);
   if (!findings) return findings.fault();
   report.findings = *std::move(findings);
@@ -111,7 +108,7 @@ Result<CompileReport> compile_show(const Source& source, const CompileJob& job, 
                                    std::stop_token stop) {
   const auto range = range_of(source.project, job.frames);
   if (!range) return range.fault();
-  FrameMaker maker(source, job.engine);
+  FrameMaker maker(source.project, source.loaded.assets, job.engine);
   const ScheduleResult schedule = make_schedule(source.project, maker.settings().images);
   ShowHeader header =
       make_show_header(source.project, source.text, source.loaded, schedule.schedule, maker.settings(), *range);
@@ -143,46 +140,22 @@ Result<CheckReport> check_project(const Source& source, const EngineChoice& engi
                                   std::stop_token stop) {
   const auto range = range_of(source.project, std::nullopt);
   if (!range) return range.fault();
-  FrameMaker maker(source, engine);
+  FrameMaker maker(source.project, source.loaded.assets, engine);
   const ScheduleResult schedule = make_schedule(source.project, maker.settings().images);
-  ConflictMeter conflict(source.project, maker.settings(), schedule.schedule);
-  Measured measured;
-  for (int k = 0; k < range->end; ++k) {
-    if (stop.stop_requested()) return cancelled(source.project.name, "");
-    if (Status stood = maker.stand_up(k); !stood) return stood.fault();
-    auto made = maker.compile(stop);
-    if (!made) return made.fault();
-    measured.coverage.push_back(maker.coverage());
-    if (looked_at_for_conflict(k, range->end)) {
-      if (Status seen = conflict.add(maker.staged(), *made->images, stop); !seen) return seen.fault();
-    }
-    measured.frames.push_back(std::move(made->measure));
-    progress(k + 1, range->end);
-  }
-  return checked(source, schedule, std::move(measured), conflict, *range, stop);
+  auto measured = measure_frames(maker, {*range, schedule.schedule}, progress, stop);
+  if (!measured) return measured.fault();
+  return checked(source, schedule, *std::move(measured), *range, stop);
 }
 
 Result<CheckReport> check_show(const Source& source, const ShowReader& show, const FrameProgress& progress,
                                std::stop_token stop) {
   const ShowHeader& header = show.header();
-  FrameMaker maker(source, {});
+  FrameMaker maker(source.project, source.loaded.assets, {});
   const ScheduleResult schedule = make_schedule(source.project, maker.settings().images);
-  ConflictMeter conflict(source.project, maker.settings(), header.schedule);
-  Measured measured;
-  measured.frames = show.measures();
-  for (int k = 0; k < header.frames; ++k) {
-    if (stop.stop_requested()) return cancelled(source.project.name, "");
-    if (Status stood = maker.stand_up(header.first_frame + k); !stood) return stood.fault();
-    measured.coverage.push_back(maker.coverage());
-    if (looked_at_for_conflict(k, header.frames)) {
-      const auto images = show.frame(k);
-      if (!images) return images.fault();
-      if (Status seen = conflict.add(maker.staged(), *images, stop); !seen) return seen.fault();
-    }
-    progress(k + 1, header.frames);
-  }
   const FrameRange frames{header.first_frame, header.first_frame + header.frames};
-  return checked(source, schedule, std::move(measured), conflict, frames, stop);
+  auto measured = measure_frames(maker, {frames, header.schedule, &show}, progress, stop);
+  if (!measured) return measured.fault();
+  return checked(source, schedule, *std::move(measured), frames, stop);
 }
 
 }  // namespace focalstage

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <stop_token>
 #include <vector>
@@ -32,9 +31,6 @@ struct CompileReport {
   PerEye<OptimalMeasure> optimal;  ///< over all frames
   std::vector<Finding> findings;
 };
-
-/// Told after each frame: how many are done, of how many.
-using FrameProgress = std::function<void(int done, int of)>;
 
 /// Compiles a project into a show file: stages, compiles and measures frame after frame while finished ones are
 /// compressed and written. Findings do not prevent the show. Faults: "compile.cancelled" (what is finished stays for

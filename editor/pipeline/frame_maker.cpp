@@ -6,15 +6,17 @@
 #include "editor/pipeline/measure_needs.h"
 
 namespace focalstage {
-FrameMaker::FrameMaker(const Source& source, EngineChoice choice)
-    : source_(source),
+
+FrameMaker::FrameMaker(const Project& project, const Assets& assets, EngineChoice choice)
+    : project_(project),
+      assets_(assets),
       choice_(choice),
-      settings_(compile_settings(source.project)),
+      settings_(compile_settings(project)),
       compiler_(settings_, choice.threads, choice.vectors),
-      meter_(settings_.projector, settings_.lens_to_pupil_m, source.project.glasses.lens_aperture_mm / 1000.0) {}
+      meter_(settings_.projector, settings_.lens_to_pupil_m, project.glasses.lens_aperture_mm / 1000.0) {}
 
 Status FrameMaker::stand_up(int frame) {
-  auto staged = stage(source_.project, source_.loaded.assets, frame / source_.project.frames.rate_hz);
+  auto staged = stage(project_, assets_, frame / project_.frames.rate_hz);
   if (!staged) return staged.fault();
   if (stage_ && same_room(*stage_, *staged)) return {};
   coverage_ = {};  // waits for one that still looks at the stage

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
@@ -11,9 +12,11 @@
 #include "core/compile/coverage.h"
 #include "core/stage/stage.h"
 #include "editor/pipeline/image_pool.h"
-#include "editor/pipeline/source.h"
 
 namespace focalstage {
+
+/// Told after each frame: how many are done, of how many.
+using FrameProgress = std::function<void(int done, int of)>;
 
 /// How to compile: what does not change the images.
 struct EngineChoice {
@@ -26,10 +29,12 @@ struct EngineChoice {
 /// moved since the frame before, that one's results are given again.
 class FrameMaker {
  public:
-  FrameMaker(const Source& source, EngineChoice choice);
+  /// Both stay as they are while it works.
+  FrameMaker(const Project& project, const Assets& assets, EngineChoice choice);
   FrameMaker(const FrameMaker&) = delete;  // a measurement under way works with this one
   FrameMaker& operator=(const FrameMaker&) = delete;
 
+  const Project& project() const { return project_; }
   const CompileSettings& settings() const { return settings_; }
 
   /// Stands up frame `frame` of the project; the other calls are about it.
@@ -47,7 +52,8 @@ class FrameMaker {
   Result<Made> compile(std::stop_token stop);
 
  private:
-  const Source& source_;
+  const Project& project_;
+  const Assets& assets_;
   EngineChoice choice_;
   CompileSettings settings_;
   Compiler compiler_;

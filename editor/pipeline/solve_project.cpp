@@ -6,11 +6,9 @@
 
 #include "core/check/check.h"
 #include "core/check/rules.h"
-#include "core/compile/compile.h"
-#include "core/compile/coverage.h"
 #include "core/optics/image_plan.h"
-#include "core/percept/conflict_meter.h"
 #include "core/schedule/schedule.h"
+#include "editor/pipeline/measure_frames.h"
 #include "editor/pipeline/measure_needs.h"
 
 namespace focalstage {
@@ -20,39 +18,13 @@ constexpr int most_rounds = 3;  ///< of solving for what compiling saw
 
 Fault cancelled(const Project& project) { return {"solve.cancelled", project.name, "stopped before the end", ""}; }
 
-/// Compiles every frame and keeps what was measured, not the images.
-Result<Measured> measure_frames(const Project& project, const Assets& assets, const FrameProgress& progress,
-                                const std::stop_token& stop) {
-  const CompileSettings settings = compile_settings(project);
-  Compiler compiler(settings);
-  CoverageMeter meter(settings.projector, settings.lens_to_pupil_m, project.glasses.lens_aperture_mm / 1000.0);
-  ConflictMeter conflict(project, settings, make_schedule(project, settings.images).schedule);
-  Measured measured;
-  std::optional<Stage> before;
-  FrameImages memory;
-  for (int k = 0; k < project.frames.count; ++k) {
-    if (stop.stop_requested()) return cancelled(project);
-    auto staged = stage(project, assets, k / project.frames.rate_hz);
-    if (!staged) return staged.fault();
-    if (before && same_room(*before, *staged)) {
-      measured.frames.push_back(measured.frames.back());
-      measured.coverage.push_back(measured.coverage.back());
-    } else {
-      auto compiled = compiler.frame(*staged, stop, std::move(memory));
-      if (!compiled) return stop.stop_requested() ? cancelled(project) : compiled.fault();
-      memory = std::move(compiled->images);
-      measured.frames.push_back(std::move(compiled->measure));
-      measured.coverage.push_back(meter.measure(*staged));
-      before = std::move(*staged);
-    }
-    if (looked_at_for_conflict(k, project.frames.count)) {
-      if (Status seen = conflict.add(*before, memory, stop); !seen) {
-        return stop.stop_requested() ? cancelled(project) : seen.fault();
-      }
-    }
-    progress(k + 1, project.frames.count);
-  }
-  measured.conflicts = conflict.conflicts();
+/// What compiling every frame of the project says.
+Result<Measured> measured_by_compiling(const Project& project, const Assets& assets, const FrameProgress& progress,
+                                       const std::stop_token& stop) {
+  FrameMaker maker(project, assets, {});
+  const ScheduleResult schedule = make_schedule(project, maker.settings().images);
+  auto measured = measure_frames(maker, {{0, project.frames.count}, schedule.schedule}, progress, stop);
+  if (!measured && stop.stop_requested()) return cancelled(project);
   return measured;
 }
 
@@ -123,7 +95,7 @@ Result<SolveReport> solve_project(const Project& project, const Assets& assets, 
     }
     const Result<Project> solved = apply_all(project, report.edits);
     if (!solved) return solved.fault();
-    const auto measured = measure_frames(*solved, assets, part(0.5, 0.5, "proved"), stop);
+    const auto measured = measured_by_compiling(*solved, assets, part(0.5, 0.5, "proved"), stop);
     if (!measured) return measured.fault();
     report.findings = check(*solved, make_schedule(*solved, image_plan(*solved)), *measured);
     if (round == most_rounds || !widen(*solved, *measured, solved_for)) break;

@@ -103,7 +103,7 @@ TEST_CASE("frames outside the project are refused") {
 TEST_CASE("a writer that fails ends the queue, and is not waited for") {
   const TemporaryFolder folder;
   const Source source = small_source(9);
-  FrameMaker maker(source, {1, false, VectorPath::best});
+  FrameMaker maker(source.project, source.loaded.assets, {1, false, VectorPath::best});
   const ScheduleResult schedule = make_schedule(source.project, maker.settings().images);
   const ShowHeader header =
       make_show_header(source.project, source.text, source.loaded, schedule.schedule, maker.settings(), {0, 9});
