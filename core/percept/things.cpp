@@ -28,33 +28,37 @@ void add_things(const std::vector<Staged>& staged, SeenThing::Kind kind, ThingMa
   for (const Staged& one : staged) {
     const auto own = static_cast<std::int32_t>(map.things.size());
     map.things.push_back({kind, one.name, one.index});
-    for (const Drawable& drawable : one.drawables) {
-      const auto first = static_cast<std::uint32_t>(seen.mesh.points_m.size());
-      for (const glm::dvec3& position_m : drawable.mesh->positions_m)
-        seen.mesh.points_m.emplace_back(drawable.world_from_mesh * glm::dvec4(position_m, 1.0));
-      for (const glm::uvec3& triangle : drawable.mesh->triangles) {
-        seen.mesh.faces.push_back(triangle + first);
-        seen.owner.push_back(own);
-      }
-    }
+    for (const Drawable& drawable : one.drawables) append(seen.mesh, drawable);
+    seen.owner.resize(seen.mesh.faces.size(), own);
   }
 }
 
-/// Candela per square metre and light of a face's point.
-double brightness(const ProjectorModel& projector, const ProjectorFlux& flux, const SurfaceMesh& mesh,
-                  std::uint32_t face, const glm::dvec3& world_m) {
-  const Rigid projector_from_world = projector.world_from_projector.inverse();
-  const glm::uvec3& corners = mesh.faces[face];
-  const glm::dvec3 a = mesh.points_m[corners.x];
-  const glm::dvec3 normal = glm::normalize(glm::cross(mesh.points_m[corners.y] - a, mesh.points_m[corners.z] - a));
-  const glm::dvec3 point_m = projector_from_world.point(world_m);
-  if (!(point_m.z < 0.0)) return 0.0;
-  const double facing_m = std::abs(glm::dot(projector_from_world.direction(normal), point_m));
-  const double pixels_per_m2 =
-      projector.focal_px.x * projector.focal_px.y * facing_m / (-point_m.z * point_m.z * point_m.z);
-  const double lumens_per_pixel = flux.lumens / (double{1} * projector.width_px * projector.height_px);
-  return lumens_per_pixel * flux.exposure_share * pixels_per_m2 / std::numbers::pi;
-}
+/// How bright a projector makes what it lights.
+class Brightness {
+ public:
+  Brightness(const ProjectorModel& projector, const ProjectorFlux& flux)
+      : projector_from_world_(projector.world_from_projector.inverse()),
+        focal_area_px2_(projector.focal_px.x * projector.focal_px.y),
+        lumens_per_pixel_(flux.lumens / (static_cast<double>(projector.width_px) * projector.height_px) *
+                          flux.exposure_share) {}
+
+  /// Candela per square metre and light of a face's point.
+  double at(const SurfaceMesh& mesh, std::uint32_t face, const glm::dvec3& world_m) const {
+    const glm::uvec3& corners = mesh.faces[face];
+    const glm::dvec3 a = mesh.points_m[corners.x];
+    const glm::dvec3 normal = glm::normalize(glm::cross(mesh.points_m[corners.y] - a, mesh.points_m[corners.z] - a));
+    const glm::dvec3 point_m = projector_from_world_.point(world_m);
+    if (!(point_m.z < 0.0)) return 0.0;
+    const double facing_m = std::abs(glm::dot(projector_from_world_.direction(normal), point_m));
+    const double pixels_per_m2 = focal_area_px2_ * facing_m / (-point_m.z * point_m.z * point_m.z);
+    return lumens_per_pixel_ * pixels_per_m2 / std::numbers::pi;
+  }
+
+ private:
+  Rigid projector_from_world_;
+  double focal_area_px2_;
+  double lumens_per_pixel_;  ///< over a whole period, of one exposure at full code
+};
 
 }  // namespace
 
@@ -77,6 +81,7 @@ ThingMap things_seen(const RetinaInput& input, const RetinaView& view, const Pro
     if (stop.stop_requested()) return map;
   }
   const Rigid world_from_eye = eye.eye_from_world.inverse();
+  const Brightness brightness(input.projector, flux);
   tbb::parallel_for(0, view.height_px, [&](int row) {
     for (int column = 0; column < view.width_px; ++column) {
       const std::size_t pixel =
@@ -89,8 +94,8 @@ ThingMap things_seen(const RetinaInput& input, const RetinaView& view, const Pro
         map.thing[pixel] = seen->owner[face];
         map.vergence_d[pixel] = static_cast<float>(1.0 / (depth_m - eye.lens_to_pupil_m));
         if (seen != &surfaces || !(flux.lumens > 0.0)) continue;
-        map.candela_per_light[pixel] = static_cast<float>(brightness(
-            input.projector, flux, seen->mesh, face, world_from_eye.point(glm::dvec3(look, -1.0) * depth_m)));
+        map.candela_per_light[pixel] =
+            static_cast<float>(brightness.at(seen->mesh, face, world_from_eye.point(glm::dvec3(look, -1.0) * depth_m)));
       }
     }
   });

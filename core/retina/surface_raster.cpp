@@ -94,16 +94,18 @@ void draw(std::uint32_t index, const SeenFace& face, RowRange rows, double most_
 
 }  // namespace
 
+void append(SurfaceMesh& all, const Drawable& drawable) {
+  const auto first = static_cast<std::uint32_t>(all.points_m.size());
+  for (const glm::dvec3& position_m : drawable.mesh->positions_m) {
+    all.points_m.emplace_back(drawable.world_from_mesh * glm::dvec4(position_m, 1.0));
+  }
+  for (const glm::uvec3& triangle : drawable.mesh->triangles) all.faces.push_back(triangle + first);
+}
+
 SurfaceMesh surface_mesh(const std::vector<StagedSurface>& surfaces) {
   SurfaceMesh all;
   for (const StagedSurface& surface : surfaces) {
-    for (const Drawable& drawable : surface.drawables) {
-      const auto first = static_cast<std::uint32_t>(all.points_m.size());
-      for (const glm::dvec3& position_m : drawable.mesh->positions_m) {
-        all.points_m.emplace_back(drawable.world_from_mesh * glm::dvec4(position_m, 1.0));
-      }
-      for (const glm::uvec3& triangle : drawable.mesh->triangles) all.faces.push_back(triangle + first);
-    }
+    for (const Drawable& drawable : surface.drawables) append(all, drawable);
   }
   return all;
 }

@@ -19,6 +19,9 @@ struct SurfaceMesh {
   std::vector<glm::uvec3> faces;
 };
 
+/// Adds a drawable, its points brought into world space, behind all faces that are there.
+void append(SurfaceMesh& all, const Drawable& drawable);
+
 SurfaceMesh surface_mesh(const std::vector<StagedSurface>& surfaces);
 
 /// Pixels in the tangent plane of a viewpoint.
