@@ -16,6 +16,9 @@ struct ObjectCoverage {
   std::uint64_t off_surface = 0;        ///< no surface behind or before it to carry the picture
   std::uint64_t outside_projector = 0;  ///< the surface is there, the projector does not reach it
   std::uint64_t outside_lens = 0;       ///< the look misses the lens aperture
+
+  /// Adds other looks at the same object.
+  void add(const ObjectCoverage& more);
 };
 
 /// Measures stage after stage of one project: looks from both pupils over a regular grid about as fine as `grid` x
