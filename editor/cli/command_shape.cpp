@@ -8,6 +8,7 @@
 #include "core/schedule/sweep_shape.h"
 #include "editor/cli/command_list.h"
 #include "editor/cli/edit_file.h"
+#include "editor/cli/look_words.h"
 #include "editor/cli/output.h"
 #include "editor/cli/power_file.h"
 
@@ -52,7 +53,7 @@ Value slots_value(const SweepShape& shape, const std::vector<ImageSpec>& images)
       const Slot* const shaped = same_slot(shape.shaped, static_cast<int>(image), eye);
       if (!sine && !shaped) continue;
       slots.push_back(Value::Object{{"image", static_cast<double>(image)},
-                                    {"eye", eye == Side::left ? "left" : "right"},
+                                    {"eye", eye_word(eye)},
                                     {"power_d", images[image].power_d},
                                     {"sine", value_of(sine)},
                                     {"shaped", value_of(shaped)}});
@@ -100,7 +101,7 @@ std::vector<std::string> row_of(const SweepShape& shape, const ImageSpec& image,
   };
   const auto smear = [](const Slot* slot) { return slot ? fixed_text(slot->smear_d, 4) : std::string("-"); };
   return {fixed_text(image.power_d, 3),
-          eye == Side::left ? "left" : "right",
+          eye_word(eye),
           at(sine),
           smear(sine),
           at(shaped),

@@ -5,15 +5,11 @@
 #include <cmath>
 
 #include "core/base/number_words.h"
+#include "editor/cli/look_words.h"
 #include "editor/cli/output.h"
 
 namespace focalstage {
 namespace {
-
-std::string kind_of(const SeenThing& thing) { return thing.kind == SeenThing::Kind::object ? "object" : "surface"; }
-
-/// Numbers that may not exist are null.
-Value number_or_null(double value) { return std::isfinite(value) ? Value(value) : Value(); }
 
 Value thing_value(const RetinaReport& report, std::size_t i) {
   const SeenThing& thing = report.things.things[i];
@@ -46,14 +42,7 @@ Value retina_value(const RetinaRun& run, const RetinaView& view, const RetinaInp
   }
   Value object;
   object.set("picture", run.picture);
-  object.set("show", run.show);
-  object.set("frame", run.frame);
-  object.set("eye", view.eye == Side::left ? "left" : "right");
-  object.set("focus_m", run.focus_m);
-  object.set("focus_d", view.focus_d);
-  object.set("pupil_mm", run.pupil_mm);
-  object.set("fov_deg", view.fov_deg);
-  object.set("size_px", Value::Array{view.width_px, view.height_px});
+  set_look(object, {run.show, run.frame, run.focus_m, run.pupil_mm}, view);
   object.set("exposures", static_cast<double>(input.exposures.size()));
   object.set("mean_light", sum / static_cast<double>(report.picture.rgb.size()));
   object.set("most_light", most);
@@ -66,9 +55,8 @@ Value retina_value(const RetinaRun& run, const RetinaView& view, const RetinaInp
 
 std::string retina_text(const RetinaRun& run, const RetinaView& view, const RetinaInput& input,
                         const RetinaReport& report) {
-  std::string text = run.picture + ": the " + (view.eye == Side::left ? "left" : "right") + " eye focused at " +
-                     short_text(run.focus_m) + " m (" + short_text(view.focus_d) + " D), " +
-                     std::to_string(input.exposures.size()) + " exposures\n";
+  std::string text = run.picture + ": the " + eye_word(view.eye) + " eye focused at " + short_text(run.focus_m) + " m (" +
+                     short_text(view.focus_d) + " D), " + std::to_string(input.exposures.size()) + " exposures\n";
   if (report.leaked > 0.0) {
     text += fixed_text(100.0 * report.leaked, 1) +
             " % of the light was meant for the other eye: a shutter moves while it is shown\n";

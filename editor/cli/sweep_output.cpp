@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "core/base/number_words.h"
+#include "editor/cli/look_words.h"
 #include "editor/cli/output.h"
 
 namespace focalstage {
@@ -26,8 +27,6 @@ std::string csv_field(const std::string& text) {
   return quoted + "\"";
 }
 
-Value number_or_null(double value) { return std::isfinite(value) ? Value(value) : Value(); }
-
 double sharpness_of(const ThingLook& look) { return look.pixels > 0 ? look.sharpness : std::nan(""); }
 
 Value curve(const FocalSweep& sweep, std::size_t thing, double (*number)(const ThingLook&)) {
@@ -39,7 +38,7 @@ Value curve(const FocalSweep& sweep, std::size_t thing, double (*number)(const T
 Value thing_value(const FocalSweep& sweep, std::size_t i) {
   Value value;
   value.set("name", sweep.things[i].name);
-  value.set("kind", sweep.things[i].kind == SeenThing::Kind::object ? "object" : "surface");
+  value.set("kind", kind_of(sweep.things[i]));
   value.set("pixels", sweep.looks.front()[i].pixels);
   const std::optional<FocusPeak>& peak = sweep.peaks[i];
   value.set("peak_focus_d", peak ? Value(peak->focus_d) : Value());
@@ -72,8 +71,7 @@ std::vector<PlotTick> metre_ticks(double from_d, double to_d) {
 }
 
 std::string who(const SweepRun& run, const RetinaView& view) {
-  return std::string("the ") + (view.eye == Side::left ? "left" : "right") + " eye, pupil " + short_text(run.pupil_mm) +
-         " mm, frame " + std::to_string(run.frame);
+  return "the " + eye_word(view.eye) + " eye, pupil " + short_text(run.pupil_mm) + " mm, frame " + std::to_string(run.frame);
 }
 
 }  // namespace
@@ -124,12 +122,7 @@ LinePlot contrast_plot(const std::string& title, const FocalSweep& sweep) {
 Value sweep_value(const SweepRun& run, const RetinaView& view, const FocalSweep& sweep) {
   Value object;
   object.set("folder", run.folder);
-  object.set("show", run.show);
-  object.set("frame", run.frame);
-  object.set("eye", view.eye == Side::left ? "left" : "right");
-  object.set("pupil_mm", run.pupil_mm);
-  object.set("fov_deg", view.fov_deg);
-  object.set("size_px", Value::Array{view.width_px, view.height_px});
+  set_look(object, {run.show, run.frame, std::nullopt, run.pupil_mm}, view);
   Value::Array pictures, foci;
   for (int i = 0; i < run.range.count; ++i) {
     pictures.push_back(sweep_picture_name(run.range, i));
@@ -152,8 +145,8 @@ std::string sweep_text(const SweepRun& run, const RetinaView& view, const FocalS
   for (std::size_t i = 0; i < sweep.things.size(); ++i) {
     const std::optional<FocusPeak>& peak = sweep.peaks[i];
     any = any || peak.has_value();
-    rows.push_back({sweep.things[i].name, sweep.things[i].kind == SeenThing::Kind::object ? "object" : "surface",
-                    std::to_string(sweep.looks.front()[i].pixels), peak ? fixed_text(peak->focus_d, 3) : "-",
+    rows.push_back({sweep.things[i].name, kind_of(sweep.things[i]), std::to_string(sweep.looks.front()[i].pixels),
+                    peak ? fixed_text(peak->focus_d, 3) : "-",
                     peak && peak->focus_d > 0.0 ? fixed_text(1.0 / peak->focus_d, 3) : "-",
                     peak ? fixed_text(peak->sharpness, 2) : "-",
                     !peak          ? ""
