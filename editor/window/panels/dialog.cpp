@@ -12,10 +12,10 @@
 
 namespace focalstage {
 
-bool begin_dialog(const char* id, const PaneRect& window, float width, float height) {
+bool begin_dialog(const char* id, const PaneRect& window, float width_px, float height_px) {
   if (!ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
-  const float wide = std::min(width, window.size.x - px(16));
-  const float high = height > 0.0f ? std::min(height, window.size.y - px(16)) : 0.0f;
+  const float wide = std::min(width_px, window.size.x - px(16));
+  const float high = height_px > 0.0f ? std::min(height_px, window.size.y - px(16)) : 0.0f;
   const glm::vec2 middle = glm::floor(window.min + 0.5f * window.size);
   ImGui::SetNextWindowPos({middle.x, middle.y}, ImGuiCond_Always, {0.5f, 0.5f});
   if (high > 0.0f) {

@@ -5,8 +5,8 @@
 namespace focalstage {
 
 /// A window in the middle that everything else waits for, the rest dimmed. True while it is there, then `end_dialog`.
-/// `height` 0: what it needs.
-bool begin_dialog(const char* id, const PaneRect& window, float width, float height = 0.0f);
+/// `height_px` 0: what it needs.
+bool begin_dialog(const char* id, const PaneRect& window, float width_px, float height_px = 0.0f);
 void end_dialog();
 
 /// Closes the dialog that is being drawn.

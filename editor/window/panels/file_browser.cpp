@@ -70,11 +70,11 @@ FileBrowser::Press FileBrowser::draw_entry(std::size_t index) {
   return {press.clicked, press.double_clicked};
 }
 
-FileBrowser::Press FileBrowser::draw(float height) {
+FileBrowser::Press FileBrowser::draw(float height_px) {
   Press press;
   ImGui::PushStyleColor(ImGuiCol_ChildBg, theme::panel);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {px(8), px(1)});
-  if (ImGui::BeginChild("entries", {0.0f, height})) {
+  if (ImGui::BeginChild("entries", {0.0f, height_px})) {
     const NameScope scope("entries");
     if (entries_.empty()) {
       ImGui::Dummy({0.0f, px(4)});
@@ -84,7 +84,7 @@ FileBrowser::Press FileBrowser::draw(float height) {
       ImGui::Unindent(px(8));
     }
     const float row = ImGui::GetFontSize() + px(7);
-    if (reveal_) ImGui::SetScrollY(std::max(0.0f, static_cast<float>(chosen_) * row - 0.5f * height));
+    if (reveal_) ImGui::SetScrollY(std::max(0.0f, static_cast<float>(chosen_) * row - 0.5f * height_px));
     reveal_ = false;
     ImGuiListClipper clipper;
     clipper.Begin(static_cast<int>(entries_.size()), row);
@@ -121,12 +121,12 @@ std::optional<fs::path> FileBrowser::draw_places(const std::vector<fs::path>& pl
   return pressed;
 }
 
-std::string path_end(const fs::path& path, float width) {
+std::string path_end(const fs::path& path, float width_px) {
   std::string whole = path.string();
   std::string shown = whole;
-  while (ImGui::CalcTextSize(shown.c_str()).x > width) {
+  while (ImGui::CalcTextSize(shown.c_str()).x > width_px) {
     const std::size_t cut = whole.find('/', 1);
-    if (cut == std::string::npos) return elided(shown, width);
+    if (cut == std::string::npos) return elided(shown, width_px);
     whole = whole.substr(cut);
     shown = "…" + whole;
   }

@@ -29,8 +29,8 @@ class FileBrowser {
     bool chose = false;
     bool entered = false;  ///< a double click
   };
-  /// The list, filling what the region has left of `height`.
-  Press draw(float height);
+  /// The list, filling what the region has left of `height_px`.
+  Press draw(float height_px);
 
   /// Places to begin from, as rows: each with a folder. The one that was pressed.
   static std::optional<std::filesystem::path> draw_places(const std::vector<std::filesystem::path>& places,
@@ -47,7 +47,7 @@ class FileBrowser {
   bool reveal_ = false;
 };
 
-/// A path cut at its front to `width` pixels: its end says most.
-std::string path_end(const std::filesystem::path& path, float width);
+/// A path cut at its front to `width_px` pixels: its end says most.
+std::string path_end(const std::filesystem::path& path, float width_px);
 
 }  // namespace focalstage

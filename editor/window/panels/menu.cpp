@@ -27,14 +27,14 @@ float row_height() { return ImGui::GetFontSize() + px(6); }
 
 }  // namespace
 
-bool begin_menu(const char* id, bool open, glm::vec2 min, glm::vec2 max, float width) {
+bool begin_menu(const char* id, bool open, glm::vec2 min, glm::vec2 max, float width_px) {
   if (open) ImGui::OpenPopup(id);
   if (!ImGui::IsPopupOpen(id)) return false;
   const ImVec2 window = ImGui::GetIO().DisplaySize;
-  const float x = std::clamp(min.x, px(4), std::max(window.x - width - px(4), px(4)));
+  const float x = std::clamp(min.x, px(4), std::max(window.x - width_px - px(4), px(4)));
   ImGui::SetNextWindowPos({x, max.y + px(4)});
-  ImGui::SetNextWindowSizeConstraints({std::min(width, window.x - px(8)), 0.0f},
-                                      {std::min(width, window.x - px(8)), window.y - max.y - px(10)});
+  ImGui::SetNextWindowSizeConstraints({std::min(width_px, window.x - px(8)), 0.0f},
+                                      {std::min(width_px, window.x - px(8)), window.y - max.y - px(10)});
   push_menu_style();
   if (ImGui::BeginPopup(id, ImGuiWindowFlags_NoMove)) {
     if (key_pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
@@ -66,7 +66,7 @@ void command_row(Session& session, std::string_view id, std::string_view label, 
   if (menu_row(id, label.empty() ? face.command.title : label, style)) (void)session.run(id, args);
 }
 
-bool begin_submenu(std::string_view label, std::string_view icon_name, float width) {
+bool begin_submenu(std::string_view label, std::string_view icon_name, float width_px) {
   const std::string id = "##" + std::string(label);
   const glm::vec2 min = from_im(ImGui::GetCursorScreenPos());
   const glm::vec2 max = min + glm::vec2(ImGui::GetContentRegionAvail().x, row_height());
@@ -81,7 +81,7 @@ bool begin_submenu(std::string_view label, std::string_view icon_name, float wid
   list.AddText({min.x + px(28), y}, theme::text, label.data(), label.data() + label.size());
   // ImGui's own row draws nothing but the arrow; it knows when a submenu may stay open.
   ImGui::SetCursorScreenPos({min.x, y});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, ImGui::GetIO().DisplaySize.y * 0.8f});
+  ImGui::SetNextWindowSizeConstraints({width_px, 0.0f}, {width_px, ImGui::GetIO().DisplaySize.y * 0.8f});
   for (const ImGuiCol which : {ImGuiCol_Header, ImGuiCol_HeaderHovered, ImGuiCol_HeaderActive}) {
     ImGui::PushStyleColor(which, 0);
   }

@@ -17,7 +17,7 @@ class SampleGrid {
   void draw(Session& session);
 
  private:
-  void draw_card(Session& session, const SampleCard& card, float width);
+  void draw_card(Session& session, const SampleCard& card, float width_px);
   Picture picture_of(const SampleCard& card);
 
   std::map<std::string, std::unique_ptr<CodesTexture>> textures_;
