@@ -197,6 +197,11 @@ std::vector<Thing> members_of(const Project& project, const Thing& group) {
   return members;
 }
 
+std::vector<Thing> things_of(const Project& project, const OutlineRow& row) {
+  if (row.kind == OutlineRow::Kind::group) return members_of(project, row.thing);
+  return {row.thing};
+}
+
 std::vector<Edit> reorder_edits(const Project& project, const Thing& thing, const Thing& beside, bool after) {
   if (thing.list != beside.list) return {};
   if (thing.list == "surfaces") return reordered(project.surfaces, thing, beside, after);

@@ -40,6 +40,9 @@ std::string fold_key(const OutlineRow& row);
 /// The things of a group, in the order of their list.
 std::vector<Thing> members_of(const Project& project, const Thing& group);
 
+/// What a row stands for: the things of a group, else the one.
+std::vector<Thing> things_of(const Project& project, const OutlineRow& row);
+
 /// Edits that put a thing before or after another of its list, and into the group that one stands in; none where
 /// nothing would change.
 std::vector<Edit> reorder_edits(const Project& project, const Thing& thing, const Thing& beside, bool after);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -16,32 +15,16 @@
 #include "editor/window/base/im.h"
 #include "editor/window/base/widgets.h"
 #include "editor/window/panels/key_pressed.h"
+#include "editor/window/panels/outline_drag.h"
 #include "editor/window/panels/outline_menus.h"
+#include "editor/window/panels/outline_rename.h"
+#include "editor/window/panels/outline_toggles.h"
 
 namespace focalstage {
 namespace {
 
 /// With more things than this a filter is worth its line.
 constexpr std::size_t many_things = 12;
-
-/// A small picture on a row, pressed by itself. Seen only when `seen`, but always there.
-bool row_toggle(const std::string& name, glm::vec2 min, glm::vec2 size, std::string_view icon_name, bool seen, bool on,
-                const Tip& tip) {
-  ImGui::SetCursorScreenPos(to_im(min));
-  ImGui::PushID(name.c_str());
-  const bool pressed = ImGui::InvisibleButton("toggle", to_im(size));
-  ImGui::PopID();
-  see_last_item(name);
-  const bool hovered = ImGui::IsItemHovered();
-  tip_for_last_item(tip);
-  if (!seen && !hovered) return pressed;
-  const std::string_view glyph = icon(icon_name);
-  const glm::vec2 text = from_im(ImGui::CalcTextSize(glyph.data(), glyph.data() + glyph.size()));
-  const glm::vec2 at = glm::floor(min + 0.5f * (size - text));
-  ImGui::GetWindowDrawList()->AddText(to_im(at), hovered || on ? theme::text : theme::dim, glyph.data(),
-                                      glyph.data() + glyph.size());
-  return pressed;
-}
 
 class OutlinePanel final : public Panel {
  public:
@@ -56,10 +39,12 @@ class OutlinePanel final : public Panel {
     if (ImGui::BeginChild("rows", {0.0f, 0.0f}, false, ImGuiWindowFlags_NoNav)) draw_rows(session);
     ImGui::EndChild();
     outline_menu(session, open_menu_);
-    follow_drop(session);
+    drag_.drop(session, drawn());
   }
 
  private:
+  DrawnRows drawn() const { return {rows_, rows_top_px_, row_px_}; }
+
   void refresh(const Session& session) {
     if (session.revision() == shown_revision_ && folded_ == shown_folded_ && filter_ == shown_filter_) return;
     shown_revision_ = session.revision();
@@ -111,7 +96,7 @@ class OutlinePanel final : public Panel {
       }
     }
     clipper.End();
-    if (dragged_) draw_drop();
+    if (drag_.active()) drag_.draw(drawn());
     ImGui::PopStyleVar();
     select_none_below(session);
   }
@@ -154,8 +139,8 @@ class OutlinePanel final : public Panel {
   void draw_row(Session& session, const OutlineRow& row) {
     if (row.kind == OutlineRow::Kind::section) {
       draw_section(row);
-    } else if (is_renamed(session, row)) {
-      draw_rename(session, row);
+    } else if (rename_.is_of(session, row)) {
+      rename_.draw(session, row, row_px_);
     } else {
       draw_thing(session, row);
     }
@@ -210,11 +195,11 @@ class OutlinePanel final : public Panel {
     style.right_room_px = row.can_hide ? 2.0f * toggle : 0.0f;
     const std::string count = row.kind == OutlineRow::Kind::group ? std::to_string(row.count) : "";
     style.right = count;
-    const bool over = ImGui::IsMouseHoveringRect(to_im(min), {min.x + width, min.y + row_px_}) && !dragged_;
+    const bool over = ImGui::IsMouseHoveringRect(to_im(min), {min.x + width, min.y + row_px_}) && !drag_.active();
     if (over && elided_at(row.label, width, style)) style.tip.help = row.label;
     const RowPress press = list_row(row.label, row.label, style);
-    follow_drag(row);
-    if (row.can_hide) draw_toggles(session, row, {min.x + width - 2.0f * toggle, min.y}, toggle, over);
+    if (filter_.empty()) drag_.follow(row);
+    if (row.can_hide) draw_toggles(session, row, {min.x + width - 2.0f * toggle, min.y}, {toggle, row_px_}, over);
     follow_press(session, row, press);
   }
 
@@ -223,46 +208,15 @@ class OutlinePanel final : public Panel {
     return label.size() > 400 || ImGui::CalcTextSize(label.c_str()).x > room;
   }
 
-  /// Eye and lock act on their row alone, whatever is selected.
-  void draw_toggles(Session& session, const OutlineRow& row, glm::vec2 min, float size, bool over) {
-    const ImVec2 below = ImGui::GetCursorScreenPos();
-    const NameScope scope(row.label);
-    ImGui::PushID(row.thing.list.c_str());
-    ImGui::PushID(row.label.c_str());
-    const glm::vec2 box(size, row_px_);
-    if (row_toggle("lock", min, box, row.locked ? "locked" : "unlock", over || row.locked, row.locked,
-                   {row.locked ? "Unlock it" : "Lock it: it can't be picked, moved or deleted", {}, {}})) {
-      set_flag(session, row, "locked", !row.locked, row.locked ? "Unlock " : "Lock ");
-    }
-    if (row_toggle("eye", {min.x + size, min.y}, box, row.hidden ? "hidden" : "show", over || row.hidden, row.hidden,
-                   {row.hidden ? "Show it" : "Hide it: neither drawn nor compiled", {}, {}})) {
-      set_flag(session, row, "hidden", !row.hidden, row.hidden ? "Show " : "Hide ");
-    }
-    ImGui::PopID();
-    ImGui::PopID();
-    ImGui::SetCursorScreenPos(below);
-  }
-
-  static std::vector<Thing> things_of_row(const Session& session, const OutlineRow& row) {
-    if (row.kind == OutlineRow::Kind::group) return members_of(session.project(), row.thing);
-    return {row.thing};
-  }
-
-  static void set_flag(Session& session, const OutlineRow& row, const char* key, bool on, const std::string& verb) {
-    std::vector<Edit> edits;
-    for (const Thing& thing : things_of_row(session, row)) edits.push_back(set_edit(thing, key, Value(on)));
-    (void)session.edit(verb + row.label, std::move(edits));
-  }
-
   // Selecting -----------------------------------------------------------------------------------------------------
 
   void follow_press(Session& session, const OutlineRow& row, const RowPress& press) {
     if (press.double_clicked) {
-      begin_rename(session, row);
-    } else if (press.clicked && !dragged_) {
+      rename_.begin(session, row);
+    } else if (press.clicked && !drag_.active()) {
       select(session, row);
     } else if (press.right_clicked) {
-      const std::vector<Thing> things = things_of_row(session, row);
+      const std::vector<Thing> things = things_of(session.project(), row);
       const bool among =
           std::all_of(things.begin(), things.end(), [&](const Thing& thing) { return session.selection().has(thing); });
       if (!among) choose(session, things);
@@ -284,11 +238,11 @@ class OutlinePanel final : public Panel {
       select_range(session, row, io.KeyCtrl);
     } else if (io.KeyCtrl) {
       Selection next = session.selection();
-      for (const Thing& thing : things_of_row(session, row)) next.toggle(thing);
+      for (const Thing& thing : things_of(session.project(), row)) next.toggle(thing);
       choose(session, next.things);
       anchor_ = row.thing;
     } else {
-      choose(session, things_of_row(session, row));
+      choose(session, things_of(session.project(), row));
     }
   }
 
@@ -315,103 +269,6 @@ class OutlinePanel final : public Panel {
     anchor_ = kept;
   }
 
-  // Renaming ------------------------------------------------------------------------------------------------------
-
-  bool is_renamed(const Session& session, const OutlineRow& row) const {
-    if (row.kind == OutlineRow::Kind::group) return renamed_group_ == row.thing;
-    return session.view().renaming == row.thing && !row.thing.name.empty();
-  }
-
-  void begin_rename(Session& session, const OutlineRow& row) {
-    if (row.thing.name.empty()) return;
-    session.view().renaming.reset();
-    renamed_group_.reset();
-    if (row.kind == OutlineRow::Kind::group) {
-      renamed_group_ = row.thing;
-    } else {
-      session.view().renaming = row.thing;
-    }
-  }
-
-  void draw_rename(Session& session, const OutlineRow& row) {
-    const glm::vec2 min = from_im(ImGui::GetCursorScreenPos());
-    const bool begins = typing_for_ != row.thing;
-    if (begins) typed_ = row.label;
-    FieldStyle style;
-    style.focus = begins;
-    style.select_all = true;
-    style.width_px = ImGui::GetContentRegionAvail().x - px(row.inside ? 44 : 26);
-    ImGui::SetCursorScreenPos({min.x + px(row.inside ? 44 : 26), min.y});
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {px(4), px(3)});
-    const TextChange change = text_field("rename", typed_, style);
-    ImGui::PopStyleVar();
-    const bool left = ImGui::IsItemDeactivated();
-    const std::string_view glyph = icon(row.icon);
-    ImGui::GetWindowDrawList()->AddText({min.x + px(row.inside ? 24 : 6), min.y + px(3)}, theme::dim, glyph.data(),
-                                        glyph.data() + glyph.size());
-    ImGui::SetCursorScreenPos({min.x, min.y + row_px_});
-    typing_for_ = row.thing;
-    if (begins) {
-      want_frame_within(0.0);  // the field takes the keyboard in the frame after
-    } else if (change.finished || left) {
-      finish_rename(session, row, !key_pressed(ImGuiKey_Escape));
-    }
-  }
-
-  void finish_rename(Session& session, const OutlineRow& row, bool take) {
-    session.view().renaming.reset();
-    renamed_group_.reset();
-    typing_for_.reset();
-    if (!take || typed_ == row.label) return;
-    if (row.kind == OutlineRow::Kind::group) {
-      std::vector<Edit> edits;
-      for (const Thing& thing : members_of(session.project(), row.thing)) {
-        edits.push_back({Edit::Kind::group, thing.list, thing.name, "", Value(typed_)});
-      }
-      (void)session.edit("Rename group " + row.label + " to " + typed_, std::move(edits));
-      return;
-    }
-    Value args;
-    args.set("name", typed_);
-    args.set("list", row.thing.list);
-    args.set("of", row.thing.name);
-    (void)session.run("edit.rename", args);
-  }
-
-  // Reordering ----------------------------------------------------------------------------------------------------
-
-  void follow_drag(const OutlineRow& row) {
-    const bool can = row.kind == OutlineRow::Kind::thing && !row.thing.name.empty() && filter_.empty();
-    if (can && ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left, px(5))) dragged_ = row.thing;
-  }
-
-  /// The row under the pointer and the half of it, if what is dragged may stand beside it.
-  std::optional<std::pair<Thing, bool>> drop_place() const {
-    const float y = (ImGui::GetIO().MousePos.y - rows_top_px_) / row_px_;
-    if (!dragged_ || y < 0.0f || y >= static_cast<float>(rows_.size())) return std::nullopt;
-    const OutlineRow& row = rows_[static_cast<std::size_t>(y)];
-    if (row.kind != OutlineRow::Kind::thing || row.thing.list != dragged_->list) return std::nullopt;
-    return std::pair(row.thing, y - std::floor(y) >= 0.5f);
-  }
-
-  void draw_drop() const {
-    ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeNS);
-    if (!drop_place()) return;
-    const float y = rows_top_px_ + std::round((ImGui::GetIO().MousePos.y - rows_top_px_) / row_px_) * row_px_;
-    const ImVec2 from = ImGui::GetWindowPos();
-    ImGui::GetWindowDrawList()->AddRectFilled({from.x, y - px(1)}, {from.x + ImGui::GetWindowWidth(), y + px(1)},
-                                              theme::accent);
-  }
-
-  void follow_drop(Session& session) {
-    if (!dragged_ || ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;
-    if (const auto at = drop_place()) {
-      (void)session.edit("Move " + dragged_->name + " in the list",
-                         reorder_edits(session.project(), *dragged_, at->first, at->second));
-    }
-    dragged_.reset();
-  }
-
   std::vector<OutlineRow> rows_;
   std::uint64_t shown_revision_ = ~0ull;
   std::set<std::string> folded_, shown_folded_;
@@ -419,11 +276,9 @@ class OutlinePanel final : public Panel {
   std::size_t things_ = 0;
   Thing anchor_;    ///< where a range begins
   Thing revealed_;  ///< the last one that was brought into sight
-  std::optional<Thing> renamed_group_;
-  std::string typed_;
-  std::optional<Thing> typing_for_;  ///< whose name has the keyboard
+  OutlineRename rename_;
+  OutlineDrag drag_;
   bool open_menu_ = false;
-  std::optional<Thing> dragged_;
   float rows_top_px_ = 0.0f;
   float row_px_ = 1.0f;
 };
