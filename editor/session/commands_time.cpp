@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "editor/session/command_list.h"
@@ -46,7 +45,7 @@ Status add_key(Session& session, const Value&) {
   std::vector<Keyframe> keys = placement_of(session.project(), &thing)->keys;
   const double time_s = state.frame_time_s();
   const Rigid pose = pose_of(session.project(), thing, time_s);
-  std::erase_if(keys, [&](const Keyframe& key) { return std::abs(key.time_s - time_s) < same_key_s; });
+  std::erase_if(keys, [&](const Keyframe& key) { return same_key(key.time_s, time_s); });
   const auto later = std::find_if(keys.begin(), keys.end(), [&](const Keyframe& key) { return key.time_s > time_s; });
   keys.insert(later, {time_s, pose, {}});
   return session.edit("Set a key of " + title_of(thing), {set_edit(thing, "keys", keys_value(keys))});
@@ -58,7 +57,7 @@ Status delete_key(Session& session, const Value& args) {
   const Thing thing = *session.selection().primary();
   std::vector<Keyframe> keys = placement_of(session.project(), &thing)->keys;
   const double time_s = number_or(args, "time_s", state.frame_time_s());
-  if (std::erase_if(keys, [&](const Keyframe& key) { return std::abs(key.time_s - time_s) < same_key_s; }) == 0) {
+  if (std::erase_if(keys, [&](const Keyframe& key) { return same_key(key.time_s, time_s); }) == 0) {
     return Fault{"session.no-key", title_of(thing), "has no key at this moment", ""};
   }
   return session.edit("Delete a key of " + title_of(thing),
@@ -71,8 +70,8 @@ Status move_key(Session& session, const Value& args) {
   if (!from_s || !to_s) return from_s ? to_s.fault() : from_s.fault();
   const Thing thing = *session.selection().primary();
   std::vector<Keyframe> keys = placement_of(session.project(), &thing)->keys;
-  const auto at = std::find_if(keys.begin(), keys.end(),
-                               [&](const Keyframe& key) { return std::abs(key.time_s - *from_s) < same_key_s; });
+  const auto at =
+      std::find_if(keys.begin(), keys.end(), [&](const Keyframe& key) { return same_key(key.time_s, *from_s); });
   if (at == keys.end()) return Fault{"session.no-key", title_of(thing), "has no key at this moment", ""};
   at->time_s = std::max(0.0, *to_s);
   std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.time_s < b.time_s; });

@@ -1,7 +1,6 @@
 #include "editor/session/edits.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/scene/project_value.h"
 #include "core/stage/stage.h"
@@ -43,7 +42,7 @@ bool has_key_at(const Project& project, const Thing* thing, double time_s) {
   const Placement* placement = placement_of(project, thing);
   if (!placement) return false;
   return std::any_of(placement->keys.begin(), placement->keys.end(),
-                     [&](const Keyframe& key) { return std::abs(key.time_s - time_s) < same_key_s; });
+                     [&](const Keyframe& key) { return same_key(key.time_s, time_s); });
 }
 
 Value keys_value(const std::vector<Keyframe>& keys) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace focalstage {
 
 /// Keys less than this apart are the same key.
 inline constexpr double same_key_s = 1e-4;
+inline bool same_key(double a_s, double b_s) { return std::abs(a_s - b_s) < same_key_s; }
 
 Value value_of(const glm::dvec3& v);
 Value value_of(const glm::dquat& q);  ///< x y z w

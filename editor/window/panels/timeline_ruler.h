@@ -2,7 +2,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "core/scene/project.h"
 #include "editor/session/thing.h"
 #include "editor/window/base/pane.h"
 
@@ -24,6 +26,10 @@ class TimelineRuler {
     std::string cue;
   };
 
+  static constexpr double band = 17.0;  ///< design pixels: the upper one, of numbers; marks stand in the lower
+
+  /// The keys of what is selected.
+  static const std::vector<Keyframe>& keys_of(const Session& session);
   float x_of(double frame) const;
   double frame_at(float x) const;  ///< within the show
   Mark mark_at(const Session& session, glm::vec2 at) const;
