@@ -100,12 +100,7 @@ std::vector<std::string> row_of(const SweepShape& shape, const ImageSpec& image,
     return slot ? fixed_text((slot->start_s + slot->exposure_s / 2.0) * 1000.0, 3) : std::string("-");
   };
   const auto smear = [](const Slot* slot) { return slot ? fixed_text(slot->smear_d, 4) : std::string("-"); };
-  return {fixed_text(image.power_d, 3),
-          eye_word(eye),
-          at(sine),
-          smear(sine),
-          at(shaped),
-          smear(shaped)};
+  return {fixed_text(image.power_d, 3), eye_word(eye), at(sine), smear(sine), at(shaped), smear(shaped)};
 }
 
 void print_table(const SweepShape& shape, const std::vector<ImageSpec>& images) {

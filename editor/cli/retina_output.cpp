@@ -55,8 +55,9 @@ Value retina_value(const RetinaRun& run, const RetinaView& view, const RetinaInp
 
 std::string retina_text(const RetinaRun& run, const RetinaView& view, const RetinaInput& input,
                         const RetinaReport& report) {
-  std::string text = run.picture + ": the " + eye_word(view.eye) + " eye focused at " + short_text(run.focus_m) + " m (" +
-                     short_text(view.focus_d) + " D), " + std::to_string(input.exposures.size()) + " exposures\n";
+  std::string text = run.picture + ": the " + eye_word(view.eye) + " eye focused at " + short_text(run.focus_m) +
+                     " m (" + short_text(view.focus_d) + " D), " + std::to_string(input.exposures.size()) +
+                     " exposures\n";
   if (report.leaked > 0.0) {
     text += fixed_text(100.0 * report.leaked, 1) +
             " % of the light was meant for the other eye: a shutter moves while it is shown\n";

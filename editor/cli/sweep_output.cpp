@@ -71,7 +71,8 @@ std::vector<PlotTick> metre_ticks(double from_d, double to_d) {
 }
 
 std::string who(const SweepRun& run, const RetinaView& view) {
-  return "the " + eye_word(view.eye) + " eye, pupil " + short_text(run.pupil_mm) + " mm, frame " + std::to_string(run.frame);
+  return "the " + eye_word(view.eye) + " eye, pupil " + short_text(run.pupil_mm) + " mm, frame " +
+         std::to_string(run.frame);
 }
 
 }  // namespace
