@@ -6,6 +6,7 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
 option(FOCALSTAGE_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
 option(FOCALSTAGE_COVERAGE "Coverage counters" OFF)
+option(FOCALSTAGE_FUZZ "Link the fuzz targets with libFuzzer (clang)" OFF)
 
 find_program(FOCALSTAGE_CCACHE ccache)
 if(FOCALSTAGE_CCACHE)
@@ -26,6 +27,11 @@ if(FOCALSTAGE_SANITIZE)
                          -fno-omit-frame-pointer)
   # GCC's own manual: with sanitizers this warning sees what is not there (in std::regex, for one).
   target_compile_options(focalstage_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  target_link_options(focalstage_options INTERFACE -fsanitize=address,undefined)
+endif()
+if(FOCALSTAGE_FUZZ)
+  target_compile_options(focalstage_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined
+                         -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
   target_link_options(focalstage_options INTERFACE -fsanitize=address,undefined)
 endif()
 if(FOCALSTAGE_COVERAGE)
