@@ -43,6 +43,7 @@ LIBRARY_OF = [
     (r"^vtk", "vtk::vtk"),
     (r"^GLFW/", "glfw::glfw"),
     (r"^epoxy/", "epoxy::epoxy"),
+    (r"^simavr/", "simavr, which is the tests' alone"),
 ]
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
