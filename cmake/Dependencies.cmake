@@ -47,3 +47,22 @@ find_library(STB_LIBRARY stb REQUIRED)
 add_library(imgui::imgui INTERFACE IMPORTED)
 target_include_directories(imgui::imgui SYSTEM INTERFACE ${IMGUI_INCLUDE})
 target_link_libraries(imgui::imgui INTERFACE ${IMGUI_LIBRARY} ${STB_LIBRARY} Freetype::Freetype glfw ${CMAKE_DL_LIBS})
+
+# The trigger board's firmware, and the chip that its tests simulate.
+find_program(FOCALSTAGE_AVR_GCC avr-gcc)
+find_program(FOCALSTAGE_AVR_OBJCOPY avr-objcopy)
+find_program(FOCALSTAGE_AVR_SIZE avr-size)
+find_path(AVR_LIBC_INCLUDE avr/io.h PATHS /usr/lib/avr/include /usr/avr/include)
+find_path(SIMAVR_INCLUDE simavr/sim_avr.h)
+find_library(SIMAVR_LIBRARY simavr)
+find_library(ELF_LIBRARY elf)
+foreach(needed FOCALSTAGE_AVR_GCC FOCALSTAGE_AVR_OBJCOPY FOCALSTAGE_AVR_SIZE AVR_LIBC_INCLUDE SIMAVR_INCLUDE SIMAVR_LIBRARY
+        ELF_LIBRARY)
+  if(NOT ${needed})
+    message(FATAL_ERROR "${needed} was not found: the trigger board's firmware and its tests need the packages gcc-avr, "
+                        "avr-libc, binutils-avr, libsimavr-dev and libelf-dev; scripts/install-packages installs them.")
+  endif()
+endforeach()
+add_library(simavr::simavr INTERFACE IMPORTED)
+target_include_directories(simavr::simavr SYSTEM INTERFACE ${SIMAVR_INCLUDE})
+target_link_libraries(simavr::simavr INTERFACE ${SIMAVR_LIBRARY} ${ELF_LIBRARY})

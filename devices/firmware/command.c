@@ -123,6 +123,8 @@ static void ask(const struct fs_conversation* talk, const char* name, uint8_t le
       fs_line_text(answer, " ");
       fs_line_number(answer, failed);
     }
+  } else if (is_word(name, length, "BLINK")) {
+    finish(answer, fs_engine_blink());
   } else {
     finish(answer, is_word(name, length, "PING") ? FS_OK : FS_UNKNOWN);
   }

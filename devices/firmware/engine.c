@@ -12,9 +12,12 @@
 #define LEFT_PIN (1u << PD4)
 #define RIGHT_PIN (1u << PD5)
 #define SHUTTER_PINS (LEFT_PIN | RIGHT_PIN)
+#define LAMP_PIN (1u << PB5)
 
 #define LOST_TICKS (25u * FS_TICKS_PER_MS)
 #define SILENT_TICKS (500ul * FS_TICKS_PER_MS)
+#define BLINK_TICKS (125ul * FS_TICKS_PER_MS)
+#define BLINK_TURNS 10u
 
 // The tables and who may touch them: `in_use` belongs to the interrupts, the other one to the main loop until it is
 // `committed`.
@@ -51,6 +54,8 @@ static uint16_t change_due;
 static struct fs_period period;
 static uint16_t polled;
 static uint32_t silence;
+static uint32_t since_turn;
+static uint8_t turns_left;
 
 // ---- pins; interrupts are off ----
 
@@ -214,13 +219,14 @@ void fs_engine_start(void) {
   write_shutters(0);
   DDRD |= SHUTTER_PINS;
   PORTB &= (uint8_t)~TRIGGER_PIN;
-  DDRB |= TRIGGER_PIN;
+  PORTB &= (uint8_t)~LAMP_PIN;
+  DDRB |= TRIGGER_PIN | LAMP_PIN;
   TCCR1A = 0;
   TCCR1B = 1 << ICNC1 | 1 << ICES1 | 1 << CS11;  // noise filter, rising edge, clock / 8
   TIMSK1 = 1 << ICIE1;
   TCCR0B = 1 << CS01 | 1 << CS00;
   TIMSK0 = 1 << TOIE0;
-  wdt_enable(WDTO_60MS);
+  wdt_enable(WDTO_30MS);
 }
 
 static void update_ratio(uint8_t which) {
@@ -255,6 +261,17 @@ static void lose_sync(void) {
   }
 }
 
+// One instruction each turn: interrupts write other pins of this port.
+static void blink(uint16_t passed) {
+  since_turn += passed;
+  if (!turns_left || since_turn < BLINK_TICKS) {
+    return;
+  }
+  since_turn = 0;
+  --turns_left;
+  PINB = LAMP_PIN;  // toggles it
+}
+
 void fs_engine_poll(void) {
   uint16_t now;
   uint16_t since_edge;
@@ -273,8 +290,10 @@ void fs_engine_poll(void) {
   if (has_edge && since_edge > LOST_TICKS) {
     lose_sync();
   }
-  silence += (uint16_t)(now - polled);
+  const uint16_t passed = (uint16_t)(now - polled);
   polled = now;
+  blink(passed);
+  silence += passed;
   if (silence > SILENT_TICKS) {
     silence = SILENT_TICKS;
     ATOMIC_BLOCK(ATOMIC_RESTORESTATE) { go_dark(FS_HOST_SILENT); }
@@ -362,6 +381,15 @@ enum fs_error fs_engine_test(uint8_t* failed) {
     wrong |= shutters_wrong(0);
     *failed = (uint8_t)((wrong & LEFT_PIN ? 1u : 0u) | (wrong & RIGHT_PIN ? 2u : 0u) | (PINB & TRIGGER_PIN ? 4u : 0u));
   }
+  return FS_OK;
+}
+
+enum fs_error fs_engine_blink(void) {
+  if (state != FS_SAFE) {
+    return FS_NOT_NOW;
+  }
+  // An even number of turns: it ends as it began, dark.
+  turns_left = (uint8_t)(BLINK_TURNS + (turns_left & 1u));
   return FS_OK;
 }
 

@@ -28,6 +28,8 @@ void fs_engine_dark(enum fs_reason reason);
 enum fs_error fs_engine_polarity(enum fs_eye eye, bool high_opens);
 /// Bits of `failed`: left, right, trigger.
 enum fs_error fs_engine_test(uint8_t* failed);
+/// The board's own lamp, on and off for a while.
+enum fs_error fs_engine_blink(void);
 void fs_engine_status(struct fs_status* status);
 
 #ifdef __cplusplus

@@ -9,8 +9,8 @@
 #include <vector>
 
 using focalstage::test::Board;
-using focalstage::test::Cycle;
-using focalstage::test::PinChange;
+using focalstage::uno_emulator::Cycle;
+using focalstage::uno_emulator::PinChange;
 
 namespace {
 
@@ -88,13 +88,29 @@ std::vector<Spread> spreads(const Board& board, const std::vector<int>& triggers
   return found;
 }
 
-/// Keeps the serial line full both ways for a time.
-void run_under_traffic(Board& board, Cycle cycles) {
+struct Traffic {
+  int asked = 0;
+  int answered = 0;
+};
+
+/// Keeps the serial line full for a time: requests follow each other without a gap, each is answered, and 256 are
+/// told apart.
+Traffic run_under_traffic(Board& board, Cycle cycles) {
+  Traffic traffic;
+  const auto count = [&] {
+    const std::vector<std::string> lines = board.take_lines();
+    traffic.answered += static_cast<int>(
+        std::count_if(lines.begin(), lines.end(), [](const std::string& line) { return line.ends_with(" OK"); }));
+  };
   for (const Cycle end = board.now() + cycles; board.now() < end;) {
-    while (!board.sent_all() && board.now() < end) board.run_for(2 * ms);
-    for (int i = 0; i < 8; ++i) board.send("PING");
-    board.take_lines();
+    for (; board.waiting_bytes() < 200; ++traffic.asked) board.send("PING");
+    board.run_for(4 * ms);
+    count();
   }
+  while (!board.sent_all()) board.run_for(ms);
+  board.run_for(5 * ms);
+  count();
+  return traffic;
 }
 
 }  // namespace
@@ -124,7 +140,12 @@ TEST_CASE("triggers: 8 cycles of jitter and 16 of error over 10,000 periods, und
     start(board, period);
     run_under_traffic(board, static_cast<Cycle>(60 * period));  // the mean settles
     const Cycle first = board.now();
-    run_under_traffic(board, static_cast<Cycle>(run.periods * period));
+    const Traffic traffic = run_under_traffic(board, static_cast<Cycle>((run.periods + 2) * period));
+    const double seconds = (run.periods + 2) * period / 16e6;
+    MESSAGE(traffic.asked << " requests in " << seconds << " s");
+    CHECK(traffic.asked > 800.0 * seconds);  // 13 or 14 bytes each: the line is full at 840
+    CHECK(traffic.answered == traffic.asked);
+    CHECK(board.overruns == 0);
     for (const Spread& spread : spreads(board, six, period, first)) {
       MESSAGE("clock " << run.clock << ": " << spread.rises << " rises, " << spread.least << " to " << spread.most
                        << " cycles off");
@@ -136,6 +157,7 @@ TEST_CASE("triggers: 8 cycles of jitter and 16 of error over 10,000 periods, und
     board.run_for(20 * ms);
     const std::string status = board.ask("STAT");
     CHECK(status.rfind("OK 2 0 1 ", 0) == 0);
+    CHECK(status.ends_with(" 0"));  // bad lines
   }
 }
 
@@ -214,7 +236,7 @@ TEST_CASE("any doubt is darkness in its time, said, latched, and over when armed
   SUBCASE("an edge that should not be") {
     said = "! DARK 2";
     within = 1 * ms;
-    board.stray_edge_in(8 * ms + ms / 2);
+    board.edge_at(board.now() + 8 * ms + ms / 2);
     board.run_for(8 * ms + ms / 2);
     begin = board.now();
     keep_talking(200 * ms);
@@ -226,18 +248,10 @@ TEST_CASE("any doubt is darkness in its time, said, latched, and over when armed
     begin = board.now();
     board.run_for(700 * ms);
   }
-  SUBCASE("a hanging main loop") {
-    said = "! BOOT focalstage-uno 1 8";
-    within = 60 * ms + 17 * ms;  // the watchdog's time, and the period in which it was last fed
-    begin = board.now();
-    board.hang_main_loop();
-    board.run_for(200 * ms);
-  }
   CHECK(board.now() > begin + within);
   CHECK_FALSE(board.trigger_high);
   REQUIRE_FALSE(board.trigger.empty());
   CHECK(board.trigger.back().at <= begin + within);
-  if (said.find("BOOT") != std::string::npos) return;
   CHECK(board.left_high);
   CHECK(board.right_high);
   CHECK(board.left.back().at <= begin + within);
@@ -251,6 +265,74 @@ TEST_CASE("any doubt is darkness in its time, said, latched, and over when armed
   CHECK(board.ask("ARM") == "OK");
   keep_talking(100 * ms);
   CHECK(board.trigger.size() > changes);
+}
+
+// The watchdog's oscillator has no guaranteed bounds (devices/firmware/README.md): 60 ms must hold with one that is a
+// quarter slow, and a lost sync must still be told as that with one that is a fifth fast.
+TEST_CASE("a hanging main loop is darkness within 60 ms, whatever the watchdog's oscillator and whenever it hangs") {
+  for (const double slowness : {0.8, 1.0, 1.0 / 0.75}) {
+    for (const Cycle phase : {Cycle{0}, 5 * ms, 10 * ms, 16 * ms}) {
+      CAPTURE(slowness);
+      CAPTURE(phase);
+      Board board;
+      board.set_watchdog_slowness(slowness);
+      start(board);
+      while (board.edges.back() + period_60_hz < static_cast<double>(board.now() + ms)) board.run_for(100);
+      board.run_for(phase);
+      board.take_lines();
+      board.hang_main_loop();
+      const Cycle begin = board.now();
+      board.run_for(200 * ms);
+      REQUIRE_FALSE(board.trigger.empty());
+      CHECK(board.trigger.back().at <= begin + 60 * ms);
+      CHECK_FALSE(board.trigger_high);
+      const std::vector<std::string> lines = board.take_lines();
+      CHECK(std::count(lines.begin(), lines.end(), "! BOOT focalstage-uno 1 8") == 1);
+      CHECK(board.left_high);
+      CHECK(board.right_high);
+      CHECK(board.edges.back() + 17 * ms > board.now());
+      CHECK(board.ask("STAT").rfind("OK 0 0 0 ", 0) == 0);
+    }
+  }
+}
+
+TEST_CASE("a watchdog that is a fifth fast leaves 22.5 ms periods alone, and a lost sync is told as one") {
+  Board board;
+  board.set_watchdog_slowness(0.82);
+  board.run_for(2 * ms);
+  board.sync_every(44.5 / 2000.0 * 16e6);
+  board.run_for(200 * ms);
+  REQUIRE(board.ask("TABLE 44500 100") == "OK");
+  REQUIRE(board.ask("TRIG 0 2000") == "OK");
+  REQUIRE(board.ask("COMMIT 1") == "OK");
+  REQUIRE(board.ask("ARM") == "OK");
+  for (int i = 0; i < 100; ++i) {
+    board.run_for(22 * ms);
+    board.send("PING");
+  }
+  CHECK(board.ask("STAT").rfind("OK 2 0 1 44500 ", 0) == 0);
+  board.sync_every(0);
+  board.run_for(60 * ms);
+  const std::vector<std::string> lines = board.take_lines();
+  CHECK(std::count(lines.begin(), lines.end(), "! DARK 2") == 1);
+}
+
+TEST_CASE("the lamp blinks when asked, ends dark, and moves nothing else") {
+  Board board;
+  start(board);
+  CHECK(board.ask("BLINK") == "ERR 7");
+  CHECK(board.ask("SAFE") == "OK");
+  board.run_for(30 * ms);
+  board.forget();
+  CHECK(board.ask("BLINK") == "OK");
+  board.run_for(600 * ms);
+  CHECK(board.ask("BLINK") == "OK");
+  board.run_for(2000 * ms);
+  CHECK(board.lamp.size() >= 14);
+  CHECK_FALSE(board.lamp_high);
+  CHECK(board.trigger.empty());
+  CHECK(board.left.empty());
+  CHECK(board.right.empty());
 }
 
 TEST_CASE("what cannot be is refused, and SAFE is darkness at once") {
