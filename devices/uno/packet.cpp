@@ -103,7 +103,7 @@ Reply decode(std::string_view line) {
   return (words[0] == "!" ? unasked(words) : answer(body, words)).value_or(Reply{});
 }
 
-std::optional<Status> decode_status(std::string_view text) {
+std::optional<StatusLine> decode_status(std::string_view text) {
   const std::vector<std::string_view> words = words_of(text);
   std::array<unsigned, 6> numbers{};
   if (words.size() != numbers.size()) return std::nullopt;
@@ -113,8 +113,8 @@ std::optional<Status> decode_status(std::string_view text) {
     numbers[i] = *number;
   }
   if (numbers[0] > 2U) return std::nullopt;
-  return Status{
-      static_cast<Status::State>(numbers[0]), numbers[1], numbers[2], numbers[3] * tick_s, numbers[4], numbers[5]};
+  return StatusLine{
+      static_cast<StatusLine::State>(numbers[0]), numbers[1], numbers[2], numbers[3] * tick_s, numbers[4], numbers[5]};
 }
 
 std::optional<unsigned> decode_hello(std::string_view text) {

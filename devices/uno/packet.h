@@ -33,7 +33,7 @@ struct Reply {
 Reply decode(std::string_view line);
 
 /// What STAT says.
-struct Status {
+struct StatusLine {
   enum class State { safe, waiting, running };
   State state = State::safe;
   unsigned reason = 0;
@@ -43,7 +43,7 @@ struct Status {
   unsigned bad_lines = 0;
 };
 
-std::optional<Status> decode_status(std::string_view words);
+std::optional<StatusLine> decode_status(std::string_view words);
 /// The protocol's version that a HELLO's answer names.
 std::optional<unsigned> decode_hello(std::string_view words);
 

@@ -1,30 +1,15 @@
 #include "tests/devices/board/board.h"
 
-#include <cstdio>
 #include <utility>
+
+#include "tests/devices/uno/emulator/line_sum.h"
 
 namespace focalstage::test {
 
-namespace {
+using uno_emulator::with_sum;
+using uno_emulator::without_sum;
 
-unsigned crc_of(std::string_view text) {
-  unsigned crc = 0xFFFF;
-  for (const char byte : text) {
-    crc ^= static_cast<unsigned>(static_cast<unsigned char>(byte)) << 8;
-    for (int bit = 0; bit < 8; ++bit) crc = ((crc << 1) ^ ((crc & 0x8000U) != 0 ? 0x1021U : 0U)) & 0xFFFFU;
-  }
-  return crc;
-}
-
-std::string with_sum(const std::string& body) {
-  char sum[8];
-  std::snprintf(sum, sizeof sum, "*%04X", crc_of(body));
-  return body + sum;
-}
-
-}  // namespace
-
-Board::Board() : Chip(FOCALSTAGE_BINARY_DIR "/firmware/focalstage-uno.elf") {}
+Board::Board() : Chip(FOCALSTAGE_FIRMWARE_ELF) {}
 
 void Board::send(std::string_view body) {
   sequence_ = (sequence_ + 1) % 256;
@@ -63,11 +48,11 @@ void Board::hear() {
 }
 
 void Board::take_line(const std::string& line) {
-  const std::size_t star = line.rfind('*');
-  if (star == std::string::npos || with_sum(line.substr(0, star)) != line) {
+  const std::string body = without_sum(line);
+  if (body.empty()) {
     ++damaged_lines;
   } else {
-    lines_.push_back(line.substr(0, star));
+    lines_.push_back(body);
   }
 }
 

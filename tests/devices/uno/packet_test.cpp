@@ -66,7 +66,7 @@ TEST_CASE("what it cannot have said is damaged") {
 TEST_CASE("status and name") {
   const auto status = uno::decode_status("2 0 3 33333 812 1");
   REQUIRE(status);
-  CHECK(status->state == uno::Status::State::running);
+  CHECK(status->state == uno::StatusLine::State::running);
   CHECK(status->tables == 3);
   CHECK(status->period_s == doctest::Approx(0.0166665));
   CHECK(status->edges == 812);
