@@ -29,7 +29,11 @@ static enum fs_error begin_table(struct fs_conversation* talk, const char* at) {
   if (!take_two(&at, &period, &width)) {
     return FS_UNKNOWN;
   }
-  talk->writing = fs_engine_begin();
+  struct fs_table* table = fs_engine_begin();
+  if (!table) {
+    return FS_NOT_NOW;
+  }
+  talk->writing = table;
   talk->committed = false;
   fs_table_begin(talk->writing, period, width);
   return FS_OK;

@@ -322,8 +322,11 @@ uint8_t fs_engine_dark_unsaid(void) {
 struct fs_table* fs_engine_begin(void) {
   struct fs_table* table = 0;
   ATOMIC_BLOCK(ATOMIC_RESTORESTATE) {
-    committed = false;
-    table = &tables[in_use ^ 1u];
+    // Dropping the one that was armed for would begin with an older one, or with none.
+    if (state != FS_WAITING || !committed) {
+      committed = false;
+      table = &tables[in_use ^ 1u];
+    }
   }
   return table;
 }

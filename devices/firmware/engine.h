@@ -21,8 +21,9 @@ struct fs_status {
 };
 
 /// Timer, pins and the two tables: what commands act on. On the chip it is engine.c; tests put their own here.
-struct fs_table* fs_engine_begin(void);  ///< the table not in use; one committed and not yet taken is dropped
-void fs_engine_commit(void);             ///< that table is taken at the next edge
+/// The table not in use; one committed and not yet taken is dropped. NULL: not now, it is armed for that one.
+struct fs_table* fs_engine_begin(void);
+void fs_engine_commit(void);  ///< that table is taken at the next edge
 enum fs_error fs_engine_arm(void);
 void fs_engine_dark(enum fs_reason reason);
 enum fs_error fs_engine_polarity(enum fs_eye eye, bool high_opens);

@@ -41,7 +41,7 @@ enum fs_error {
   FS_OVERLAP,     ///< both shutters would be open at once
   FS_NOT_SYNCED,  ///< no sync signal, or its period is over 3 % off the table's
   FS_NO_TABLE,    ///< no table was committed
-  FS_NOT_NOW,     ///< only while safe
+  FS_NOT_NOW,     ///< only while safe; or a table between ARM and its edge
   FS_INCOMPLETE   ///< COMMIT counts other triggers than came
 };
 

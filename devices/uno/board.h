@@ -55,6 +55,7 @@ class UnoBoard final : public TriggerBoard {
   focalstage::Status make_dark(Dialogue& dialogue, std::uint64_t asked);
   focalstage::Status do_job(Dialogue& dialogue, Job& job);
   Result<Reply> answer_to(Dialogue& dialogue, const std::string& command, double deadline_s);
+  Result<Reply> answer_in_time(Dialogue& dialogue, const std::string& command, double deadline_s);
   focalstage::Status say_all(Dialogue& dialogue, const Job& job);
   focalstage::Status beat(Dialogue& dialogue);
   focalstage::Status take_unasked(Dialogue& dialogue);

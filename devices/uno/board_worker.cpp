@@ -3,7 +3,7 @@
 
 #include "devices/roles/clock.h"
 #include "devices/uno/board.h"
-#include "devices/uno/table.h"
+#include "devices/uno/faults.h"
 
 namespace focalstage::uno {
 
@@ -12,57 +12,11 @@ namespace {
 constexpr double beat_s = 0.1;
 constexpr double silence_s = 0.5;
 constexpr double dark_again_s = 0.01;
-constexpr unsigned told = 1;  // the reason of a darkness
+constexpr double edge_wait_s = 0.004;
+constexpr unsigned told = 1;     // the reason of a darkness
+constexpr unsigned not_now = 7;  // the board's error
 
 double silent_at_s(const Dialogue& dialogue) { return dialogue.heard_s() + silence_s; }
-
-Fault darkness(const std::string& path, unsigned reason) {
-  switch (reason) {
-    case 2:
-      return {"board.sync_lost", path, "it went dark: the sync edge did not come, or not when it should",
-              "see the cable to D8 and what gives out the edge, then arm again"};
-    case 3:
-      return {"board.host_silent", path, "it went dark: it heard nothing from this computer for 500 ms",
-              "see the USB cable and the computer's load, then arm again"};
-    case 4:
-      return {"board.late", path, "it went dark: a trigger came too late, or D9 was not as it was driven",
-              "see that nothing else drives D9, then arm again"};
-    default:
-      return {"board.dark", path, "it went dark by itself, for reason " + std::to_string(reason), "arm again"};
-  }
-}
-
-Fault restarted(const std::string& path, unsigned cause) {
-  std::string why = "for no known reason";
-  if ((cause & 8U) != 0) why = "by its watchdog: its program hung";
-  if ((cause & 4U) != 0) why = "as its voltage broke down";
-  if ((cause & 2U) != 0) why = "by its reset line";
-  if ((cause & 1U) != 0) why = "as its power came";
-  return {"uno.reset", path, "the board restarted " + why, "see its power and cable, then open it again"};
-}
-
-Fault refusal(const Dialogue& dialogue, const std::string& command, unsigned code) {
-  if (command == "ARM" && code == 5) {
-    return {"board.unsynced", dialogue.path(), "there is no sync edge, or its period is over 3 % off the table's",
-            "start the lens drive, and see the cable to D8"};
-  }
-  if (command == "ARM" && code == 6) {
-    return {"board.table", dialogue.path(), "the board has no table", "load one first"};
-  }
-  if (code == 7) {
-    return {"uno.running", dialogue.path(), "the board does this only while it is dark", "make it dark first"};
-  }
-  return table_fault(command, code);
-}
-
-std::string pins_of(const std::string& bits) {
-  const int failed = bits.empty() ? 0 : bits.front() - '0';
-  std::string names;
-  if ((failed & 1) != 0) names += " D4";
-  if ((failed & 2) != 0) names += " D5";
-  if ((failed & 4) != 0) names += " D9";
-  return names;
-}
 
 }  // namespace
 
@@ -139,9 +93,19 @@ Result<Reply> UnoBoard::answer_to(Dialogue& dialogue, const std::string& command
   }
 }
 
+/// As `answer_to`; a table that comes between arming and its edge is one for after that edge.
+Result<Reply> UnoBoard::answer_in_time(Dialogue& dialogue, const std::string& command, double deadline_s) {
+  for (;;) {
+    Result<Reply> reply = answer_to(dialogue, command, deadline_s);
+    const bool too_soon = reply && reply->kind == ReplyKind::error && reply->code == not_now;
+    if (!too_soon || !command.starts_with("TABLE") || monotonic_s() > deadline_s) return reply;
+    if (const focalstage::Status fine = dialogue.listen(monotonic_s() + edge_wait_s); !fine) return fine.fault();
+  }
+}
+
 focalstage::Status UnoBoard::say_all(Dialogue& dialogue, const Job& job) {
   for (const std::string& command : job.commands) {
-    const Result<Reply> reply = answer_to(dialogue, command, job.deadline_s);
+    const Result<Reply> reply = answer_in_time(dialogue, command, job.deadline_s);
     if (!reply && reply.fault().code == "uno.woken") {
       return Fault{"uno.dark", dialogue.path(), "it was made dark meanwhile", "ask again"};
     }
@@ -150,10 +114,9 @@ focalstage::Status UnoBoard::say_all(Dialogue& dialogue, const Job& job) {
                    "see the USB cable: lines are damaged or lost on it"};
     }
     if (!reply) return reply.fault();
-    if (reply->kind == ReplyKind::error) return refusal(dialogue, command, reply->code);
+    if (reply->kind == ReplyKind::error) return refusal(dialogue.path(), command, reply->code);
     if (command == "TEST" && reply->words != "0") {
-      return Fault{"uno.pins", dialogue.path(), "these pins are not as they are driven:" + pins_of(reply->words),
-                   "see what else is connected to them"};
+      return failed_test(dialogue.path(), reply->words);
     }
   }
   return {};
@@ -168,7 +131,7 @@ focalstage::Status UnoBoard::do_job(Dialogue& dialogue, Job& job) {
   focalstage::Status outcome;
   if (job.purpose == Purpose::arm && !loaded) {
     // It may have one of an earlier host.
-    outcome = refusal(dialogue, "ARM", 6);
+    outcome = refusal(dialogue.path(), "ARM", 6);
   } else {
     outcome = say_all(dialogue, job);
   }

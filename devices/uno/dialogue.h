@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "devices/serial/serial_port.h"
-#include "devices/uno/packet.h"
+#include "devices/uno/packets.h"
 #include "devices/uno/waker.h"
 
 namespace focalstage::uno {

@@ -214,6 +214,27 @@ TEST_CASE("a committed table is taken at an edge, whole: every period is the old
   }
 }
 
+TEST_CASE("the table that it was armed for is the one it begins with: no other drops it") {
+  Board board;
+  board.run_for(2 * ms);
+  board.sync_every(period_60_hz);
+  board.run_for(100 * ms);
+  while (board.edges.back() + 2 * ms < board.now()) board.run_for(100);
+  const std::size_t edges = board.edges.size();
+  REQUIRE(board.ask("TABLE 33333 100") == "OK");
+  REQUIRE(board.ask("TRIG 0 5000") == "OK");
+  REQUIRE(board.ask("COMMIT 1") == "OK");
+  REQUIRE(board.ask("ARM") == "OK");
+  CHECK(board.ask("TABLE 33333 100") == "ERR 7");
+  CHECK(board.ask("COMMIT 1") == "OK");
+  REQUIRE(board.edges.size() == edges);
+  board.run_for(20 * ms);
+  REQUIRE(board.trigger.size() >= 2);
+  CHECK(std::abs(static_cast<double>(board.trigger.front().at - board.edges[edges]) - 40'000.0) < 20.0);
+  CHECK(board.ask("TABLE 33333 100") == "OK");
+  CHECK(board.ask("STAT").rfind("OK 2 0 1 ", 0) == 0);
+}
+
 TEST_CASE("any doubt is darkness in its time, said, latched, and over when armed again") {
   Board board;
   start(board);

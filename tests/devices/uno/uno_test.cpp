@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -131,7 +132,8 @@ TEST_CASE("dark is dark within 50 ms, also while a table is on its way") {
   const std::size_t triggers = rig.triggers();
   CHECK_FALSE(rig.uno->report().armed);
   CHECK(rig.uno->state().phase == DevicePhase::ready);
-  CHECK_FALSE(rig.uno->state().fault.has_value());
+  const std::optional<Fault> fault = rig.uno->state().fault;
+  CHECK((fault ? describe(*fault) : "none") == "none");
   if (loader.joinable()) loader.join();
   wait_s(0.2);
   CHECK(rig.triggers() == triggers);
@@ -143,6 +145,15 @@ TEST_CASE("dark is dark within 50 ms, also while a table is on its way") {
   rig.board.misbehave({});
   CHECK(rig.uno->load(some_table()).ok());
   CHECK(rig.uno->arm().ok());
+}
+
+TEST_CASE("while it is armed the board hears of its host every 150 ms at the latest") {
+  PluggedIn rig;
+  start(rig);
+  rig.board.with([](UnoEmulator& uno) { uno.take_longest_silence(); });
+  wait_s(1.5);
+  const Cycle silence = rig.board.with([](UnoEmulator& uno) { return uno.take_longest_silence(); });
+  CHECK(static_cast<double>(silence) / 16e6 <= 0.15);
 }
 
 TEST_CASE("what the board cannot do is refused, and it stays as it was") {

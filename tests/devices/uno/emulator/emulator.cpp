@@ -1,6 +1,7 @@
 #include "tests/devices/uno/emulator/emulator.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace focalstage::uno_emulator {
 
@@ -37,6 +38,8 @@ void UnoEmulator::pump() {
   see_host();
   const std::string told = port_.read();
   const std::string said = chip_.take_bytes();
+  longest_silence_ = std::max(longest_silence_, chip_.now() - told_at_);
+  if (!told.empty()) told_at_ = chip_.now();
   if (booting_until_ != 0) return;
   chip_.send_raw(line_.told(told));
   line_.say(said, chip_.now());
@@ -48,6 +51,8 @@ void UnoEmulator::pump() {
   port_.write(arrived);
   if (breaks) unplug();
 }
+
+Cycle UnoEmulator::take_longest_silence() { return std::exchange(longest_silence_, 0); }
 
 void UnoEmulator::unplug(bool keeps_power) {
   port_.unplug();

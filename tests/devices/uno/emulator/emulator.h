@@ -39,6 +39,9 @@ class UnoEmulator {
   void plug_in();
   bool plugged_in() const { return port_.plugged_in(); }
 
+  /// The longest that the host said nothing since this was asked last.
+  Cycle take_longest_silence();
+
  private:
   void see_host();
 
@@ -49,6 +52,8 @@ class UnoEmulator {
   std::size_t said_ = 0;  ///< bytes, since it was plugged in
   bool host_was_there_ = false;
   bool keeps_power_ = false;
+  Cycle told_at_ = 0;
+  Cycle longest_silence_ = 0;
   Cycle booting_until_ = 0;  ///< 0: it is not
 };
 

@@ -1,4 +1,4 @@
-#include "devices/uno/packet.h"
+#include "devices/uno/packets.h"
 
 #include <array>
 #include <charconv>
