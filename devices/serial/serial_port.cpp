@@ -49,9 +49,12 @@ Fault open_fault(const std::string& path, int error) {
   if (error == EBUSY || error == EWOULDBLOCK) {
     return {"serial.busy", path, "another program uses this port", "close that program; ModemManager may be one"};
   }
-  std::string remedy = "plug it in, or see which name it has now";
-  if (error == EACCES || error == EPERM) remedy = "install the driver's udev rule, or join the group dialout";
-  return {"serial.open", path, "the port cannot be opened: " + words_for(error), remedy};
+  if (error == EACCES || error == EPERM) {
+    return {"serial.denied", path, "the port may not be opened: " + words_for(error),
+            "install the driver's udev rule, or join the group dialout"};
+  }
+  return {"serial.open", path, "the port cannot be opened: " + words_for(error),
+          "plug it in, or see which name it has now"};
 }
 
 bool make_raw(int descriptor, speed_t speed) {

@@ -14,8 +14,8 @@ namespace focalstage {
 /// A serial line, raw, 8 data bits, no parity, one stop bit, no flow control. No thread of its own: one thread may read
 /// while another writes. Deadlines are times of devices/roles/clock.h.
 ///
-/// Faults: "serial.open", "serial.busy" (another program has it), "serial.baud", "serial.timeout" and "serial.gone":
-/// unplugged, hung up or failed, and nothing will ever come from this port again.
+/// Faults: "serial.open", "serial.denied" (permissions), "serial.busy" (another program has it), "serial.baud",
+/// "serial.timeout" and "serial.gone": unplugged, hung up or failed, and nothing will ever come from this port again.
 class SerialPort {
  public:
   /// As this program's alone where the system knows how to. Raises DTR, which resets an Arduino; closing leaves it

@@ -26,7 +26,7 @@ constexpr std::chrono::milliseconds dark_within{45};
 
 /// What waiting will not mend.
 bool is_final(const Fault& fault) {
-  return fault.code == "serial.busy" || fault.code == "serial.open" || fault.code == "uno.protocol" ||
+  return fault.code == "serial.busy" || fault.code == "serial.denied" || fault.code == "uno.protocol" ||
          fault.code == "uno.several";
 }
 

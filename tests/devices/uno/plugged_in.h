@@ -1,5 +1,6 @@
 #pragma once
 
+#include <doctest/doctest.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -40,7 +41,14 @@ struct PluggedIn {
     return true;
   }
   bool comes_to(DevicePhase phase) const {
-    return soon([&] { return uno->state().phase == phase; });
+    if (soon([&] { return uno->state().phase == phase; })) return true;
+    const DeviceState state = uno->state();
+    MESSAGE(name_of(state.phase) << ": " << (state.fault ? describe(*state.fault) : "no fault"));
+    return false;
+  }
+  /// A crowded machine may take longer than `dark` waits, and says so.
+  bool made_dark() const {
+    return soon([&] { return uno->dark(); });
   }
   bool is_synced() const {
     return soon([&] { return uno->report().period_s.has_value(); });
@@ -57,6 +65,9 @@ struct PluggedIn {
   uno_emulator::PacedUno board;
   std::unique_ptr<TriggerBoard> uno;
 };
+
+/// In words: a fault, or "done".
+inline std::string outcome_of(const Status& status) { return status ? "done" : describe(status.fault()); }
 
 inline UnoSettings quick_boot() {
   UnoSettings settings;

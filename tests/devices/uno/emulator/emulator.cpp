@@ -44,6 +44,7 @@ void UnoEmulator::pump() {
   chip_.send_raw(line_.told(told));
   line_.say(said, chip_.now());
   std::string arrived = line_.arrived(chip_.now());
+  if (!host_was_there_) return;
   const std::size_t most = line_.how().unplug_after.value_or(said_ + arrived.size());
   const bool breaks = said_ + arrived.size() > most;
   if (breaks) arrived.resize(most - std::min(most, said_));
@@ -53,6 +54,11 @@ void UnoEmulator::pump() {
 }
 
 Cycle UnoEmulator::take_longest_silence() { return std::exchange(longest_silence_, 0); }
+
+void UnoEmulator::misbehave(const Misbehaviour& how) {
+  line_.misbehave(how);
+  said_ = 0;
+}
 
 void UnoEmulator::unplug(bool keeps_power) {
   port_.unplug();
@@ -66,7 +72,6 @@ void UnoEmulator::unplug(bool keeps_power) {
 void UnoEmulator::plug_in() {
   if (port_.plugged_in()) return;
   port_.plug_in();
-  said_ = 0;
   if (!keeps_power_) chip_.reset();
   chip_.take_bytes();
 }

@@ -31,7 +31,7 @@ class UnoEmulator {
   /// Carries bytes once: for who runs the chip itself, in steps of a millisecond at most.
   void pump();
 
-  void misbehave(const Misbehaviour& how) { line_.misbehave(how); }
+  void misbehave(const Misbehaviour& how);
   /// The port is gone. Its power too, and the chip then starts anew when it is plugged in; or it has that from
   /// elsewhere, and goes on.
   void unplug(bool keeps_power = false);
@@ -49,7 +49,7 @@ class UnoEmulator {
   Chip chip_;
   PtyPort port_;
   Line line_;
-  std::size_t said_ = 0;  ///< bytes, since it was plugged in
+  std::size_t said_ = 0;  ///< bytes to a host, since the misbehaviour was set
   bool host_was_there_ = false;
   bool keeps_power_ = false;
   Cycle told_at_ = 0;

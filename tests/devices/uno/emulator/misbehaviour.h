@@ -21,7 +21,7 @@ struct Misbehaviour {
   bool refuse = false;                                     ///< every OK is an ERR 3
   double delay_s = 0.0;                                    ///< its lines arrive so much later
   bool dribble = false;                                    ///< what it says arrives byte by byte
-  std::optional<std::size_t> unplug_after = std::nullopt;  ///< so many bytes that it says, the port is gone
+  std::optional<std::size_t> unplug_after = std::nullopt;  ///< so many bytes that a host was told, the port is gone
 };
 
 /// The way from the chip to the host, and back, as the misbehaviour has it.
