@@ -118,20 +118,11 @@ class LightCrafter final : public Projector {
       starting_ = true;
     }
     const Status started = commands->run([](Control& control) { return control.start(); }, most_wait_s);
-    if (!started) {
-      (void)commands->dark(dark_within_s);
-      const std::lock_guard lock(mutex_);
-      starting_ = false;
-      return started;
-    }
+    const Status running = started ? begin(darks) : started;
+    if (!running) (void)commands->dark(dark_within_s);
     const std::lock_guard lock(mutex_);
     starting_ = false;
-    if (darks != darks_) return fault("projector.hurried", "it was told to go dark instead", "");
-    if (state_.phase != DevicePhase::ready) return state_.fault.value_or(fault("projector.lost", "it is lost", ""));
-    state_.phase = DevicePhase::running;
-    begun_ = display_->report();
-    feeder_.go(true);
-    return {};
+    return running;
   }
 
   Status post(std::vector<Picture> pictures) override {
@@ -149,6 +140,7 @@ class LightCrafter final : public Projector {
     std::shared_ptr<CommandThread> commands;
     {
       const std::lock_guard lock(mutex_);
+      stop_counting();
       if (state_.phase == DevicePhase::running) state_.phase = DevicePhase::ready;
       commands = commands_;
       if (!commands) return state_.phase == DevicePhase::off;
@@ -157,11 +149,14 @@ class LightCrafter final : public Projector {
   }
 
   ProjectorReport report() const override {
-    const DisplayReport now = display_->report();
+    const DisplayReport shown = display_->report();
     const std::lock_guard lock(mutex_);
     ProjectorReport report;
-    if (now.newest_vblank_s) report.newest_period_s = *now.newest_vblank_s + settings_.light_after_vblank_s - lead_s_;
+    if (shown.newest_vblank_s) {
+      report.newest_period_s = *shown.newest_vblank_s + settings_.light_after_vblank_s - lead_s_;
+    }
     if (!begun_) return report;
+    const DisplayReport now = ended_.value_or(shown);
     report.periods = now.vblanks - begun_->vblanks;
     report.exposures = (now.shown - begun_->shown) * per_period_;
     report.missed = (now.silent - begun_->silent + now.repeated - begun_->repeated) * per_period_;
@@ -198,6 +193,24 @@ class LightCrafter final : public Projector {
     commands_ = std::move(commands);
     state_.heard_s = monotonic_s();
     return {};
+  }
+
+  /// The board runs: so does this, unless it was told or came to grief meanwhile.
+  Status begin(std::uint64_t darks) {
+    const std::lock_guard lock(mutex_);
+    if (darks != darks_) return fault("projector.hurried", "it was told to go dark instead", "");
+    if (state_.phase != DevicePhase::ready) return state_.fault.value_or(fault("projector.lost", "it is lost", ""));
+    state_.phase = DevicePhase::running;
+    state_.fault.reset();
+    begun_ = display_->report();
+    ended_.reset();
+    feeder_.go(true);
+    return {};
+  }
+
+  /// With `mutex_` held: what was shown is counted no further.
+  void stop_counting() {
+    if (state_.phase == DevicePhase::running) ended_ = display_->report();
   }
 
   void end() {
@@ -238,6 +251,7 @@ class LightCrafter final : public Projector {
 
   void set(DevicePhase phase, const std::optional<Fault>& why) {
     const std::lock_guard lock(mutex_);
+    stop_counting();
     state_.phase = phase;
     state_.fault = why;
   }
@@ -253,6 +267,7 @@ class LightCrafter final : public Projector {
     bright_looks_ = running || starting_ || board.dark() ? 0 : bright_looks_ + 1;
     if (bright_looks_ == 1) return true;
     if (!why) return false;
+    stop_counting();
     if (state_.phase != DevicePhase::lost) state_.phase = shown.fault ? DevicePhase::lost : DevicePhase::ready;
     state_.fault = why;
     feeder_.go(false);
@@ -279,8 +294,9 @@ class LightCrafter final : public Projector {
   bool armed_ = false;
   double lead_s_ = 0.0;
   std::size_t per_period_ = 0;
-  std::optional<DisplayReport> begun_;
-  bool starting_ = false;  ///< in another thread: the lamps are lit before the phase says so
+  std::optional<DisplayReport> begun_;  ///< as it was at the start
+  std::optional<DisplayReport> ended_;  ///< and when it stopped
+  bool starting_ = false;               ///< in another thread: the lamps are lit before the phase says so
   int bright_looks_ = 0;
 };
 

@@ -207,6 +207,36 @@ TEST_CASE("dark is on time while something slow is under way") {
   CHECK(rig.projector->arm(three_of_four_bits()).ok());
 }
 
+TEST_CASE("whoever comes first, start or dark, the board does what the phase says") {
+  Rig rig;
+  rig.run();
+  REQUIRE(rig.projector->dark());
+  for (int i = 0; i < 40; ++i) {
+    {
+      std::jthread starting([&] { (void)rig.projector->start(); });
+      std::this_thread::sleep_for(std::chrono::microseconds(i * 50));
+      (void)rig.projector->dark();
+    }
+    CHECK(rig.board.running() == (rig.projector->state().phase == DevicePhase::running));
+    CHECK_FALSE(rig.projector->state().fault);
+    (void)rig.projector->dark();
+    CHECK_FALSE(rig.board.running());
+  }
+}
+
+TEST_CASE("what was shown is counted from the start to the end") {
+  Rig rig;
+  rig.run();
+  for (int i = 0; i < 3; ++i) rig.display->vblank();
+  REQUIRE(rig.projector->dark());
+  for (int i = 0; i < 3; ++i) rig.display->vblank();
+  CHECK(rig.projector->report().periods == 3);
+  CHECK(rig.projector->report().missed == 9);
+  REQUIRE(rig.projector->start().ok());
+  rig.display->vblank();
+  CHECK(rig.projector->report().periods == 1);
+}
+
 TEST_CASE("a board that does not answer: dark says so in time, though it was heard, and the loss is named") {
   Rig rig;
   rig.run();
