@@ -30,13 +30,22 @@ focalstage_room(io/protocol     USES io/project io/assets io/json io/files core/
 
 # devices: the rig; drivers see only core
 focalstage_room(devices/roles   USES core/base)
+focalstage_room(devices/serial  USES devices/roles core/base)
 focalstage_room(devices/sim     USES devices/roles core/base)
 focalstage_room(devices/rig     USES devices/roles core/base)
 focalstage_room(devices/natnet  USES devices/roles core/base)
+focalstage_room(devices/planes  USES core/base)
+focalstage_room(devices/display USES core/base)
+focalstage_room(devices/display_kms USES devices/display devices/roles core/base LIBS drm::drm)
+focalstage_room(devices/display_glfw USES devices/display devices/roles core/base PRIVATE_LIBS glfw::glfw epoxy::epoxy)
+focalstage_room(devices/lightcrafter USES devices/display devices/planes devices/roles core/base PRIVATE_LIBS hidapi::hidraw)
 focalstage_room(devices/player  USES devices/roles io/show core/schedule)
 focalstage_room(devices/runtime USES devices/player devices/sim devices/roles io/show io/project io/assets io/json io/protocol io/files
                                      core/check core/compile core/schedule core/stage
                                 PRIVATE_LIBS spdlog::spdlog gRPC::grpc++ gRPC::grpc++_reflection)
+focalstage_room(devices/uno     USES devices/serial devices/roles core/base)
+# C for a microcontroller, a program of its own: on this side only its tests
+focalstage_room(devices/firmware)
 
 # editor: what people touch
 focalstage_room(editor/samples  USES io/files core/base)

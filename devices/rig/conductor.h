@@ -17,7 +17,7 @@
 namespace focalstage {
 
 struct RigDevices {
-  std::shared_ptr<Projector> projector;
+  std::shared_ptr<ProjectorDevice> projector;
   std::shared_ptr<LensDrive> lens;
   std::shared_ptr<TriggerBoard> board;
 };

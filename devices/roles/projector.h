@@ -46,7 +46,7 @@ struct ProjectorReport {
 
 /// A projector that shows several pictures in each period. Whatever it is told, it is dark before `start`, after
 /// `dark`, and by itself where nobody posts: then periods are black and counted as missed.
-class Projector : public Device {
+class ProjectorDevice : public Device {
  public:
   virtual ProjectorAbilities abilities() const = 0;
 

@@ -174,7 +174,7 @@ class FakeBoard final : public TriggerBoard {
   Stagehands& all_;
 };
 
-class FakeProjector final : public Projector {
+class FakeProjector final : public ProjectorDevice {
  public:
   explicit FakeProjector(Stagehands& all) : all_(all) {}
   Status open() override { return {}; }

@@ -1,0 +1,103 @@
+#include "devices/display_kms/kms_display.h"
+
+#include <cerrno>
+#include <cstring>
+#include <mutex>
+#include <thread>
+
+#include "devices/display/frame_queue.h"
+#include "devices/roles/clock.h"
+
+namespace focalstage {
+
+namespace {
+
+constexpr int most_wait_ms = 100;         ///< for a vblank, before the output counts as lost
+constexpr double between_looks_s = 0.25;  ///< at the connector
+
+class KmsDisplay final : public Display {
+ public:
+  KmsDisplay(KmsSettings settings, DrmCalls& drm)
+      : settings_(std::move(settings)), drm_(drm), queue_(settings_.most_waiting) {}
+  ~KmsDisplay() override { close(); }
+
+  Status open() override {
+    const std::lock_guard lock(opening_);
+    if (thread_.joinable() && !queue_.report().fault) return {};
+    end();
+    Result<std::unique_ptr<KmsOutput>> output = KmsOutput::open(drm_, settings_);
+    if (!output) return output.fault();
+    output_ = std::move(*output);
+    {
+      const std::lock_guard mode_lock(mode_mutex_);
+      mode_ = output_->mode();
+    }
+    queue_.open(static_cast<std::size_t>(settings_.width_px) * static_cast<std::size_t>(settings_.height_px));
+    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
+    return {};
+  }
+
+  void close() override {
+    const std::lock_guard lock(opening_);
+    end();
+  }
+
+  VideoMode mode() const override {
+    const std::lock_guard lock(mode_mutex_);
+    return mode_;
+  }
+  Status post(VideoFrame frame) override { return queue_.post(std::move(frame)); }
+  std::size_t waiting() const override { return queue_.waiting(); }
+  void black() noexcept override { queue_.forget(); }
+  DisplayReport report() const override { return queue_.report(); }
+
+ private:
+  void end() {
+    queue_.close();
+    thread_ = {};
+    output_.reset();
+  }
+
+  void run(const std::stop_token& stop) {
+    std::optional<std::uint32_t> before;
+    double look_s = monotonic_s() + between_looks_s;
+    while (true) {
+      const bool last = stop.stop_requested();  // ends in black
+      const VideoFrame frame = last ? nullptr : queue_.take();
+      if (const int error = output_->flip(frame.get()); error != 0) return lose(std::strerror(-error));
+      const auto flip = output_->wait(most_wait_ms);
+      if (!flip) return lose("no vblank for 100 ms");
+      // The first flip has none before it; a driver that does not count vblanks tells 0 each time.
+      const std::uint32_t passed = before ? flip->sequence - *before : 1U;
+      before = flip->sequence;
+      queue_.shown(flip->time_s, passed > 1 && passed < 1000 ? passed - 1 : 0);
+      if (last) return;
+      if (monotonic_s() < look_s) continue;
+      look_s = monotonic_s() + between_looks_s;
+      if (!output_->connected()) return lose("it was unplugged");
+    }
+  }
+
+  void lose(const std::string& why) {
+    output_->off();
+    queue_.lose({"display.lost", "display", "its output stopped: " + why,
+                 "look at its cable and its power, then open it again"});
+  }
+
+  KmsSettings settings_;
+  DrmCalls& drm_;
+  FrameQueue queue_;
+  std::mutex opening_;
+  mutable std::mutex mode_mutex_;
+  VideoMode mode_;
+  std::unique_ptr<KmsOutput> output_;
+  std::jthread thread_;
+};
+
+}  // namespace
+
+std::unique_ptr<Display> make_kms_display(const KmsSettings& settings, DrmCalls& drm) {
+  return std::make_unique<KmsDisplay>(settings, drm);
+}
+
+}  // namespace focalstage
