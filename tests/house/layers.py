@@ -43,6 +43,8 @@ LIBRARY_OF = [
     (r"^vtk", "vtk::vtk"),
     (r"^GLFW/", "glfw::glfw"),
     (r"^epoxy/", "epoxy::epoxy"),
+    (r"^libusb", "usb::usb"),
+    (r"^umockdev", "umockdev::umockdev"),
 ]
 
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]', re.MULTILINE)
