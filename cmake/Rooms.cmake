@@ -30,6 +30,7 @@ focalstage_room(io/protocol     USES io/project io/assets io/json io/files core/
 
 # devices: the rig; drivers see only core
 focalstage_room(devices/roles   USES core/base)
+focalstage_room(devices/serial  USES devices/roles core/base)
 focalstage_room(devices/sim     USES devices/roles core/base)
 focalstage_room(devices/rig     USES devices/roles core/base)
 focalstage_room(devices/natnet  USES devices/roles core/base)
