@@ -23,13 +23,15 @@ Status Mcc1208Drive::open() {
   const std::lock_guard lock(mutex_);
   if (opened) return opened;
   session_.reset();
-  const bool hopeless = opened.fault().code == "usb.permission" || opened.fault().code == "usb.which";
+  const std::string& code = opened.fault().code;
+  const bool hopeless = code == "usb.permission" || code == "usb.which" || code == "mcc1208.settings";
   state_.phase = hopeless ? DevicePhase::refused : DevicePhase::lost;
   state_.fault = opened.fault();
   return opened;
 }
 
 Status Mcc1208Drive::open_unit() {
+  if (const Status sensible = check_mcc1208(settings_); !sensible) return sensible;
   auto found = find_mcc1208(settings_.serial, settings_.answer_s);
   if (!found) return found.fault();
   const auto session = std::make_shared<Session>();
@@ -160,13 +162,15 @@ Result<std::uint64_t> Mcc1208Drive::refill(const DrivePeriod& period) {
 bool Mcc1208Drive::stop() noexcept {
   try {
     SessionPtr session;
+    bool lost = false;
     {
       const std::lock_guard lock(mutex_);
       ++stops_;
       session = session_;
       if (!session) return state_.phase == DevicePhase::off;
-      if (state_.phase == DevicePhase::lost) return false;
+      lost = state_.phase == DevicePhase::lost;
     }
+    if (lost) return halt(*session).ok();  // it may only have been silent
     halt_and_tell(*session, std::nullopt);
     return state().phase != DevicePhase::lost;
   } catch (...) {

@@ -12,9 +12,10 @@ namespace focalstage {
 /// the period length must be the one that was started with. `clamped` counts the samples of each period that was handed
 /// over, once.
 ///
-/// Faults: "drive.unable" (a period that it cannot make), "drive.off" (not open, or lost), "drive.running",
-/// "drive.stopped" (a stop came while it started); in the state also "drive.underrun" (the host came too late, or the
-/// device says so), "drive.stalled" (it takes no more samples), and those of devices/usb.
+/// Faults: "mcc1208.settings" (one makes no sense), "drive.unable" (a period that it cannot make), "drive.off" (not
+/// open, or lost), "drive.running", "drive.stopped" (a stop came while it started); in the state also "drive.underrun"
+/// (the host came too late, or the device says so), "drive.stalled" (it takes no more samples), and those of
+/// devices/usb.
 std::unique_ptr<LensDrive> make_mcc1208(const Mcc1208Settings& settings);
 
 }  // namespace focalstage

@@ -31,7 +31,6 @@ Status check_asked(const DrivePeriod& period, const Mcc1208Settings& settings) {
     return unable("what current the amplifier gives per volt is not told",
                   "measure it and set amperes_per_volt and zero_code");
   }
-  if (settings.samples < 2 || settings.samples > 4000) return unable("the setting samples is not within 2 to 4000");
   return {};
 }
 
@@ -63,6 +62,24 @@ double at(const std::vector<double>& ring, double place) {
 
 }  // namespace
 
+Status check_mcc1208(const Mcc1208Settings& settings) {
+  const auto senseless = [](const std::string& name, const std::string& allowed) {
+    return Fault{"mcc1208.settings", "mcc1208", "the setting " + name + " is not within " + allowed, "mend it"};
+  };
+  if (settings.zero_code < 0 || settings.zero_code > mcc_top_code) return senseless("zero_code", "0 to 4095");
+  if (settings.enable_bit.value_or(0) < 0 || settings.enable_bit.value_or(0) > 15) {
+    return senseless("enable_bit", "0 to 15");
+  }
+  if (settings.samples < 2 || settings.samples > 4000) return senseless("samples", "2 to 4000");
+  if (!std::isfinite(settings.amperes_per_volt)) return senseless("amperes_per_volt", "numbers");
+  if (!(settings.ramp_s >= 0.0 && settings.ramp_s <= 0.06)) return senseless("ramp_s", "0 to 0.06");
+  if (settings.queued_periods < 3 || settings.queued_periods > 32) return senseless("queued_periods", "3 to 32");
+  for (const double time_s : {settings.answer_s, settings.watch_s, settings.silence_s}) {
+    if (!(time_s > 0.0 && time_s < 10.0)) return senseless("answer_s, watch_s or silence_s", "0 to 10");
+  }
+  return {};
+}
+
 double mcc1208_most_a(const Mcc1208Settings& settings) {
   const double per_code = std::abs(amperes_per_code(settings));
   const int room = std::min(settings.zero_code, mcc_top_code - settings.zero_code);
@@ -83,6 +100,7 @@ int mcc1208_code(double drive_a, const Mcc1208Settings& settings, std::uint64_t&
 }
 
 Result<Mcc1208Wave> mcc1208_wave(const DrivePeriod& period, const Mcc1208Settings& settings) {
+  if (const Status sensible = check_mcc1208(settings); !sensible) return sensible.fault();
   if (const Status asked = check_asked(period, settings); !asked) return asked.fault();
   const auto pacer = pacer_for(period.period_s, settings);
   if (!pacer) return pacer.fault();

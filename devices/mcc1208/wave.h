@@ -9,6 +9,9 @@
 
 namespace focalstage {
 
+/// "mcc1208.settings" names the setting that makes no sense; with such nothing is opened.
+Status check_mcc1208(const Mcc1208Settings& settings);
+
 /// The limit of the settings in amperes: what the codes of channel 0 reach where that is less, and never beyond the
 /// hard one. 0 where the amplifier is not told.
 double mcc1208_most_a(const Mcc1208Settings& settings);

@@ -209,14 +209,13 @@ Status OptotuneDriver::follow_input() {
 
 bool OptotuneDriver::stop() noexcept {
   try {
-    if (const DevicePhase phase = state().phase; phase != DevicePhase::ready && phase != DevicePhase::running) {
-      return phase == DevicePhase::off;
-    }
+    const DevicePhase phase = state().phase;
+    if (phase == DevicePhase::off) return true;
     const std::unique_lock held(line_mutex_, std::chrono::duration<double>(2.5 * settings_.answer_s));
     if (!held.owns_lock() || !line_) return false;
     const Status told = to_zero();
-    note_zero(told, std::nullopt);
-    return told.ok();
+    if (phase == DevicePhase::ready || phase == DevicePhase::running) note_zero(told, std::nullopt);
+    return told.ok();  // one that is lost stays it, even if it was only silent
   } catch (...) {
     return false;
   }
@@ -237,7 +236,12 @@ Status OptotuneDriver::to_zero() {
     if (const Status told = line_->tell(optotune_set_current(optotune_counts(left_a, most_a))); !told) return told;
     sleep_until(monotonic_s() + settings_.ramp_step_s);
   }
-  return line_->tell(optotune_set_current(0));
+  if (const Status told = line_->tell(optotune_set_current(0)); !told) return told;
+  const auto flows = line_->ask_number(optotune_ask_current());  // nothing said is no proof
+  if (!flows) return flows.fault();
+  if (*flows == 0) return {};
+  return Fault{"optotune.current", id().address, "it says that a current flows though it was told none",
+               "take the lens off its power"};
 }
 
 void OptotuneDriver::note_zero(const Status& told, std::optional<Fault> why) {

@@ -29,15 +29,16 @@ struct OptotuneReport {
 ///
 /// Faults: those of devices/serial, "optotune.missing", "optotune.which", "optotune.stranger", "optotune.damaged",
 /// "optotune.limit" (it does not take the limit: nothing is driven), "optotune.hot", "optotune.off", "optotune.mode"
-/// (it left its mode by itself), and what the device refuses ("optotune.checksum", "optotune.unavailable",
-/// "optotune.unknown", "optotune.lens").
+/// (it left its mode by itself), "optotune.current" (it says that a current flows that it should not), and what the
+/// device refuses ("optotune.checksum", "optotune.unavailable", "optotune.unknown", "optotune.lens").
 class OptotuneLens : public Device {
  public:
   /// Holds a current, cut at the limit. Refused in analogue mode, and while the lens is hot.
   virtual Status set_current(double amperes) = 0;
   /// From now on the analogue input gives the current, within the device's own limits; `stop` ends it.
   virtual Status follow_input() = 0;
-  /// Halves the current five times and ends at zero in current mode, within 200 ms. False: it could not be told.
+  /// Halves the current five times and ends at zero in current mode, where the device says so itself, within 200 ms;
+  /// another question that is under way may take that long as well. False: it did not say so.
   virtual bool stop() noexcept = 0;
   virtual OptotuneReport report() const = 0;
 };

@@ -125,5 +125,23 @@ TEST_CASE("the lead-in goes from no current to the first sample in whole packets
   CHECK(u16(bytes, 959 * 4) == 2999);
 }
 
+TEST_CASE("settings that make no sense are named, and nothing is opened with them") {
+  CHECK(check_mcc1208(Mcc1208Settings{}).ok());
+  const auto named = [](void (*spoil)(Mcc1208Settings&), const std::string& name) {
+    Mcc1208Settings settings = bipolar();
+    spoil(settings);
+    const Status checked = check_mcc1208(settings);
+    return !checked && checked.fault().message.find(name) != std::string::npos &&
+           refused(both({0.0}), settings) == "mcc1208.settings";
+  };
+  CHECK(named([](Mcc1208Settings& s) { s.zero_code = 4096; }, "zero_code"));
+  CHECK(named([](Mcc1208Settings& s) { s.enable_bit = 16; }, "enable_bit"));
+  CHECK(named([](Mcc1208Settings& s) { s.samples = 1; }, "samples"));
+  CHECK(named([](Mcc1208Settings& s) { s.amperes_per_volt = 1.0 / 0.0; }, "amperes_per_volt"));
+  CHECK(named([](Mcc1208Settings& s) { s.ramp_s = 0.0 / 0.0; }, "ramp_s"));
+  CHECK(named([](Mcc1208Settings& s) { s.queued_periods = 2; }, "queued_periods"));
+  CHECK(named([](Mcc1208Settings& s) { s.answer_s = 0.0; }, "answer_s"));
+}
+
 }  // namespace
 }  // namespace focalstage
