@@ -37,9 +37,12 @@ struct Tally {
   }
 
   void print(double device_s) {
-    std::fprintf(stderr, "%.1f s: %llu scans, %llu edges, channel 0 within %d to %d\n", device_s,
-                 static_cast<unsigned long long>(scans.exchange(0)), static_cast<unsigned long long>(edges.exchange(0)),
-                 least.exchange(4096), most.exchange(-1));
+    const int lowest = least.exchange(std::numeric_limits<int>::max());
+    const int highest = most.exchange(-1);
+    std::fprintf(stderr, "%.1f s: %llu scans, %llu edges", device_s, static_cast<unsigned long long>(scans.exchange(0)),
+                 static_cast<unsigned long long>(edges.exchange(0)));
+    if (highest >= 0) std::fprintf(stderr, ", channel 0 within %d to %d", lowest, highest);
+    std::fputc('\n', stderr);
   }
 };
 
