@@ -46,6 +46,7 @@ LIBRARY_OF = [
     (r"^simavr/", "simavr, which is the tests' alone"),
     (r"^hidapi/", "hidapi::hidraw"),
     (r"^xf86drm", "drm::drm"),
+    (r"^libusb", "usb::usb"),
     (r"^umockdev", "umockdev::umockdev"),
 ]
 
