@@ -1,0 +1,261 @@
+#include "devices/plugin/plugin_lens_drive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "devices/plugin/library.h"
+#include "devices/plugin/plugin_seat.h"
+#include "devices/roles/clock.h"
+
+namespace focalstage {
+
+namespace {
+
+// The ABI's.
+constexpr double start_s = 1.0;
+// Of the 100 ms within which `stop` has to be through.
+constexpr double stop_s = 0.1;
+constexpr std::int64_t clock_slack_ns = 1'000'000;
+
+focalstage_drive_device* device_of(void* device) { return static_cast<focalstage_drive_device*>(device); }
+
+/// What calls that outlive the role still use.
+struct Desk {
+  PluginDriveSettings settings;
+  const focalstage_lens_drive* table = nullptr;
+  mutable std::mutex mutex;
+  focalstage_drive_abilities abilities{};
+  bool running = false;
+  std::uint64_t run = 0;
+  std::int64_t begun_ns = 0;
+  std::uint64_t clamped = 0;
+  focalstage_drive_counts counts{};
+
+  double most_a() const {
+    const std::lock_guard lock(mutex);
+    return std::max(0.0, std::min(settings.most_a, abilities.most_a));
+  }
+};
+
+struct Samples {
+  double period_ns = 0.0;
+  PerEye<std::vector<double>> drive_a;
+  std::uint64_t clamped = 0;
+
+  focalstage_drive_period told() const {
+    return {period_ns, static_cast<std::uint32_t>(drive_a.left.size()), drive_a.left.data(), drive_a.right.data()};
+  }
+};
+
+Result<void*> open_device(Desk& desk) {
+  const std::string library = desk.settings.plugin.library.string();
+  const auto table = load_lens_drive_plugin(desk.settings.plugin.library);
+  if (!table) return table.fault();
+  desk.table = *table;
+  std::vector<focalstage_setting> options;
+  for (const auto& [key, value] : desk.settings.plugin.options) options.push_back({key.c_str(), value.c_str()});
+  focalstage_drive_device* device = nullptr;
+  PluginWords words{};
+  const auto count = static_cast<std::uint32_t>(options.size());
+  const std::int32_t code = desk.table->open(options.data(), count, &device, words.data());
+  if (code != FOCALSTAGE_OK) return plugin_fault(code, words, library, "plugin.unable");
+  if (device == nullptr) return Fault{"plugin.fault", library, "it opened nothing and said that all is well", ""};
+  focalstage_identity identity{};
+  focalstage_drive_abilities abilities{};
+  desk.table->describe(device, &identity, &abilities);
+  if (!(abilities.most_a > 0.0)) {
+    desk.table->close(device);
+    return Fault{"plugin.abilities", library, "what it says of its currents cannot be", "this plugin is broken"};
+  }
+  const std::lock_guard lock(desk.mutex);
+  desk.abilities = abilities;
+  return static_cast<void*>(device);
+}
+
+DeviceId describe_device(const Desk& desk, void* device) {
+  focalstage_identity identity{};
+  focalstage_drive_abilities abilities{};
+  desk.table->describe(device_of(device), &identity, &abilities);
+  return plugin_id(identity);
+}
+
+/// Takes what was told of the run that is under way; a Fault where that cannot be, or where there was a gap.
+std::optional<Fault> take(Desk& desk, std::uint64_t run, const focalstage_drive_counts& counts) {
+  const auto now_ns = static_cast<std::int64_t>(monotonic_s() * 1e9);
+  const std::lock_guard lock(desk.mutex);
+  if (counts.told_ns > now_ns + clock_slack_ns || counts.newest_period_ns > now_ns + clock_slack_ns) {
+    return Fault{"plugin.counts", "lens drive", "its counts are of a moment that is still to come",
+                 "this plugin is broken: do not use it"};
+  }
+  if (!desk.running || run != desk.run || counts.told_ns < desk.begun_ns) return std::nullopt;
+  if (counts.periods < desk.counts.periods || counts.underruns < desk.counts.underruns) {
+    return Fault{"plugin.counts", "lens drive", "its counts went back", "this plugin is broken: do not use it"};
+  }
+  desk.counts = counts;
+  if (counts.underruns == 0) return std::nullopt;
+  return Fault{"drive.underrun", "lens drive", "the waveform had a gap: this machine came too late",
+               "see that nothing else keeps this machine busy"};
+}
+
+PluginWord ask_status(Desk& desk, void* device) {
+  std::uint64_t run = 0;
+  {
+    const std::lock_guard lock(desk.mutex);
+    run = desk.run;
+  }
+  focalstage_drive_counts counts{};
+  PluginWord word;
+  word.code = desk.table->status(device_of(device), &counts, word.words.data());
+  word.told_ns = counts.told_ns;
+  word.temperature_c = counts.temperature_c;
+  if (word.code == FOCALSTAGE_OK) word.lie = take(desk, run, counts);
+  return word;
+}
+
+PluginCalls calls_of(const std::shared_ptr<Desk>& desk) {
+  PluginCalls calls;
+  calls.open = [desk] { return open_device(*desk); };
+  calls.describe = [desk](void* device) { return describe_device(*desk, device); };
+  calls.identify = [desk](void* device, char* error) { return desk->table->identify(device_of(device), error); };
+  calls.status = [desk](void* device) { return ask_status(*desk, device); };
+  calls.make_safe = [desk](void* device) { return desk->table->stop(device_of(device)) == FOCALSTAGE_OK; };
+  calls.close = [desk](void* device) { desk->table->close(device_of(device)); };
+  return calls;
+}
+
+/// Straight lines between `from`, as `count` samples of the same period.
+std::vector<double> sampled_again(const std::vector<double>& from, std::size_t count) {
+  std::vector<double> out(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double at = static_cast<double>(i) * static_cast<double>(from.size()) / static_cast<double>(count);
+    const auto k = static_cast<std::size_t>(at);
+    out[i] = std::lerp(from[k], from[(k + 1) % from.size()], at - static_cast<double>(k));
+  }
+  return out;
+}
+
+class PluginLensDrive final : public LensDrive {
+ public:
+  explicit PluginLensDrive(const PluginDriveSettings& settings)
+      : desk_(std::make_shared<Desk>()), seat_(settings.plugin, calls_of(desk_), "lens") {
+    desk_->settings = settings;
+  }
+
+  Status open() override { return seat_.open(); }
+  void close() override {
+    end();
+    seat_.close();
+  }
+  DeviceId id() const override { return seat_.id(); }
+  DeviceState state() const override { return seat_.state(); }
+  Status identify() override { return seat_.identify(); }
+
+  DriveAbilities abilities() const override {
+    DriveAbilities able;
+    able.most_a = desk_->most_a();
+    const std::lock_guard lock(desk_->mutex);
+    able.eyes_apart = desk_->abilities.eyes_apart != 0;
+    able.sync_edge = desk_->abilities.sync_edge != 0;
+    if (desk_->abilities.most_samples > 0) able.most_samples = static_cast<int>(desk_->abilities.most_samples);
+    return able;
+  }
+
+  Status start(const DrivePeriod& period) override {
+    (void)stop();
+    const auto samples = samples_of(period);
+    if (!samples) return samples.fault();
+    const std::uint64_t stopped = stopped_;
+    const auto call = [desk = desk_, kept = *samples](void* device, char* error) {
+      const focalstage_drive_period told = kept.told();
+      const auto before_ns = static_cast<std::int64_t>(monotonic_s() * 1e9);
+      const std::int32_t code = desk->table->start(device_of(device), &told, error);
+      if (code != FOCALSTAGE_OK) return code;
+      const std::lock_guard lock(desk->mutex);
+      desk->running = true;
+      ++desk->run;
+      desk->begun_ns = before_ns;
+      desk->clamped = kept.clamped;
+      desk->counts = {};
+      desk->counts.period_ns = kept.period_ns;
+      return code;
+    };
+    Status started = seat_.work(call, start_s, "drive.unable");
+    if (started && stopped == stopped_) {
+      seat_.set_running(true);
+      return {};
+    }
+    (void)stop();
+    return started ? Fault{"drive.stopped", seat_.where(), "it was stopped meanwhile", "start it again"} : started;
+  }
+
+  Result<std::uint64_t> refill(const DrivePeriod& period) override {
+    const auto samples = samples_of(period);
+    if (!samples) return samples.fault();
+    const auto from = std::make_shared<std::uint64_t>(0);
+    const auto call = [desk = desk_, kept = *samples, from](void* device, char* error) {
+      const focalstage_drive_period told = kept.told();
+      const std::int32_t code = desk->table->refill(device_of(device), &told, from.get(), error);
+      const std::lock_guard lock(desk->mutex);
+      if (code == FOCALSTAGE_OK) desk->clamped += kept.clamped;
+      return code;
+    };
+    if (Status refilled = seat_.work(call, start_s, "drive.unable"); !refilled) return refilled.fault();
+    return *from;
+  }
+
+  bool stop() noexcept override {
+    ++stopped_;
+    end();
+    return seat_.make_safe(stop_s);
+  }
+
+  DriveReport report() const override {
+    const std::lock_guard lock(desk_->mutex);
+    const focalstage_drive_counts& counts = desk_->counts;
+    return {counts.periods, 1e-9 * static_cast<double>(counts.newest_period_ns), 1e-9 * counts.period_ns,
+            counts.underruns, desk_->clamped};
+  }
+
+ private:
+  void end() noexcept {
+    const std::lock_guard lock(desk_->mutex);
+    desk_->running = false;
+  }
+
+  /// Cut to the limit, and to as many samples as it takes.
+  Result<Samples> samples_of(const DrivePeriod& period) const {
+    const DriveAbilities able = abilities();
+    const auto& drive = period.drive_a;
+    const auto unable = [&](const char* what) { return Fault{"drive.unable", seat_.where(), what, ""}; };
+    if (!(period.period_s > 0.0) || drive.left.empty() || drive.left.size() != drive.right.size()) {
+      return unable("this is no period of current for two eyes");
+    }
+    if (!able.eyes_apart && drive.left != drive.right) return unable("it has one channel for both lenses");
+    Samples out{period.period_s * 1e9, drive, 0};
+    for (std::vector<double>* eye : {&out.drive_a.left, &out.drive_a.right}) {
+      const auto most = static_cast<std::size_t>(able.most_samples.value_or(0));
+      if (most > 0 && eye->size() > most) *eye = sampled_again(*eye, most);
+      for (double& a : *eye) {
+        if (std::abs(a) <= able.most_a) continue;  // what is no number is cut too
+        a = std::isnan(a) ? 0.0 : std::clamp(a, -able.most_a, able.most_a);
+        ++out.clamped;
+      }
+    }
+    return out;
+  }
+
+  std::shared_ptr<Desk> desk_;
+  std::atomic<std::uint64_t> stopped_ = 0;
+  PluginSeat seat_;
+};
+
+}  // namespace
+
+std::unique_ptr<LensDrive> make_plugin_lens_drive(const PluginDriveSettings& settings) {
+  return std::make_unique<PluginLensDrive>(settings);
+}
+
+}  // namespace focalstage

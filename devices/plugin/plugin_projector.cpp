@@ -1,0 +1,234 @@
+#include "devices/plugin/plugin_projector.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "devices/plugin/library.h"
+#include "devices/plugin/plugin_seat.h"
+#include "devices/plugin/projector_books.h"
+#include "devices/roles/clock.h"
+
+namespace focalstage {
+
+namespace {
+
+// The ABI's.
+constexpr double configure_s = 3.0;
+constexpr double start_s = 1.0;
+constexpr double submit_s = 0.1;
+// So long a picture may wait for room: by then the plugin should long have had it.
+constexpr double room_s = 0.5;
+constexpr std::int64_t acquire_ns = 5'000'000;
+// Of the 200 ms within which `dark` has to be through.
+constexpr double dark_s = 0.15;
+constexpr std::uint32_t most_px = 32768;
+
+std::int64_t ns_of(double s) { return static_cast<std::int64_t>(std::llround(s * 1e9)); }
+
+/// A table of calls and the books: what calls that outlive the role still use.
+struct Desk {
+  PluginProjectorSettings settings;
+  const focalstage_projector* table = nullptr;
+  ProjectorBooks books;
+};
+
+focalstage_projector_device* device_of(void* device) { return static_cast<focalstage_projector_device*>(device); }
+
+Fault eye_safety_fault(const std::string& library) {
+  return {"plugin.eye-safety", library, "nobody has vouched for the light of this projector",
+          "have it measured (IEC 62471; no laser, no ultraviolet), then set eye_safe in its settings"};
+}
+
+Result<void*> open_device(Desk& desk) {
+  const std::string library = desk.settings.plugin.library.string();
+  if (!desk.settings.eye_safe) return eye_safety_fault(library);
+  const auto table = load_projector_plugin(desk.settings.plugin.library);
+  if (!table) return table.fault();
+  desk.table = *table;
+  std::vector<focalstage_setting> options;
+  for (const auto& [key, value] : desk.settings.plugin.options) options.push_back({key.c_str(), value.c_str()});
+  focalstage_projector_device* device = nullptr;
+  PluginWords words{};
+  const auto count = static_cast<std::uint32_t>(options.size());
+  const std::int32_t code = desk.table->open(options.data(), count, &device, words.data());
+  if (code != FOCALSTAGE_OK) return plugin_fault(code, words, library, "plugin.unable");
+  if (device == nullptr) return Fault{"plugin.fault", library, "it opened nothing and said that all is well", ""};
+  focalstage_identity identity{};
+  focalstage_projector_abilities abilities{};
+  desk.table->describe(device, &identity, &abilities);
+  const bool sized = abilities.width_px >= 1 && abilities.width_px <= most_px && abilities.height_px >= 1 &&
+                     abilities.height_px <= most_px;
+  if (!sized || abilities.most_periods_ahead < 2 || abilities.most_bits < 1 || abilities.most_bits > 8) {
+    desk.table->close(device);
+    return Fault{"plugin.abilities", library, "what it says of its projector cannot be", "this plugin is broken"};
+  }
+  desk.books.set_abilities(abilities);
+  return static_cast<void*>(device);
+}
+
+DeviceId describe_device(const Desk& desk, void* device) {
+  focalstage_identity identity{};
+  focalstage_projector_abilities abilities{};
+  desk.table->describe(device_of(device), &identity, &abilities);
+  return plugin_id(identity);
+}
+
+PluginWord ask_status(Desk& desk, void* device) {
+  const std::uint64_t run = desk.books.run();
+  focalstage_projector_counts counts{};
+  PluginWord word;
+  word.code = desk.table->status(device_of(device), &counts, word.words.data());
+  word.told_ns = counts.told_ns;
+  word.temperature_c = counts.temperature_c;
+  if (word.code == FOCALSTAGE_OK) word.lie = desk.books.told(run, counts, ns_of(monotonic_s()));
+  return word;
+}
+
+PluginCalls calls_of(const std::shared_ptr<Desk>& desk) {
+  PluginCalls calls;
+  calls.open = [desk] { return open_device(*desk); };
+  calls.describe = [desk](void* device) { return describe_device(*desk, device); };
+  calls.identify = [desk](void* device, char* error) { return desk->table->identify(device_of(device), error); };
+  calls.status = [desk](void* device) { return ask_status(*desk, device); };
+  calls.make_safe = [desk](void* device) { return desk->table->blank(device_of(device)) == FOCALSTAGE_OK; };
+  calls.close = [desk](void* device) { desk->table->close(device_of(device)); };
+  return calls;
+}
+
+std::int32_t configure(const Desk& desk, void* device, const Exposures& exposures, char* error) {
+  std::vector<std::int64_t> starts;
+  for (const double s : exposures.start_s) starts.push_back(ns_of(s));
+  const focalstage_exposures told{exposures.period_s * 1e9,
+                                  ns_of(exposures.exposure_s),
+                                  static_cast<std::uint32_t>(exposures.channels),
+                                  static_cast<std::uint32_t>(exposures.bits),
+                                  static_cast<std::uint32_t>(starts.size()),
+                                  starts.data()};
+  desk.table->stop(device_of(device));
+  return desk.table->configure(device_of(device), &told, error);
+}
+
+/// One picture, or black, into the plugin; waits for room as long as this run goes on.
+std::int32_t submit(Desk& desk, void* device, std::uint64_t run, std::uint64_t period, std::uint32_t exposure,
+                    const Picture* picture, char* error) {
+  const double until_s = monotonic_s() + room_s;
+  while (desk.books.run() == run && monotonic_s() < until_s) {
+    std::uint8_t* buffer = nullptr;
+    if (picture != nullptr) {
+      const std::int32_t code = desk.table->acquire(device_of(device), &buffer, acquire_ns, error);
+      if (code == FOCALSTAGE_NOT_YET) continue;
+      if (code != FOCALSTAGE_OK) return desk.books.run() == run ? code : FOCALSTAGE_OK;
+      std::memcpy(buffer, picture->codes.data(), picture->codes.size());
+    }
+    desk.books.submitting(run);
+    const std::int32_t code = desk.table->submit(device_of(device), buffer, period, exposure, error);
+    if (code == FOCALSTAGE_NOT_YET) {
+      desk.books.refused(run);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      continue;
+    }
+    return desk.books.run() == run ? code : FOCALSTAGE_OK;
+  }
+  if (desk.books.run() != run) return FOCALSTAGE_OK;
+  std::snprintf(error, FOCALSTAGE_ERROR_BYTES, "it has no room for pictures that it said it can hold");
+  return FOCALSTAGE_UNABLE;
+}
+
+class PluginProjector final : public Projector {
+ public:
+  explicit PluginProjector(const PluginProjectorSettings& settings)
+      : desk_(std::make_shared<Desk>()), seat_(settings.plugin, calls_of(desk_), "projector") {
+    desk_->settings = settings;
+  }
+  ~PluginProjector() override { desk_->books.end(); }
+
+  Status open() override { return seat_.open(); }
+  void close() override {
+    desk_->books.end();
+    seat_.close();
+  }
+  DeviceId id() const override { return seat_.id(); }
+  DeviceState state() const override { return seat_.state(); }
+  Status identify() override { return seat_.identify(); }
+  ProjectorAbilities abilities() const override { return desk_->books.abilities(); }
+  ProjectorReport report() const override { return desk_->books.report(); }
+
+  Status arm(const Exposures& exposures) override {
+    if (desk_->books.run() != 0) (void)dark();
+    if (exposures.start_s.empty() || !(exposures.period_s > 0.0) ||
+        (exposures.channels != 1 && exposures.channels != 3)) {
+      return Fault{"projector.unable", seat_.where(), "there is nothing to show", "give it exposures and a period"};
+    }
+    desk_->books.set_exposures(exposures);
+    return seat_.work(
+        [desk = desk_, exposures](void* device, char* error) { return configure(*desk, device, exposures, error); },
+        configure_s, "projector.unable");
+  }
+
+  Status start() override {
+    const std::uint64_t darkened = darkened_;
+    const auto call = [desk = desk_](void* device, char* error) {
+      desk->table->stop(device_of(device));
+      const std::int32_t code = desk->table->start(device_of(device), error);
+      // Counts of an earlier run are told no more, and this one's only from here on.
+      if (code == FOCALSTAGE_OK) desk->books.begin(monotonic_s());
+      return code;
+    };
+    Status started = seat_.work(call, start_s, "projector.unable");
+    if (started && darkened == darkened_) {
+      seat_.set_running(true);
+      return {};
+    }
+    (void)dark();  // told meanwhile, or gone wrong halfway
+    return started ? Fault{"projector.dark", seat_.where(), "it was made dark meanwhile", "start it again"} : started;
+  }
+
+  Status post(std::vector<Picture> pictures) override {
+    const Exposures exposures = desk_->books.exposures();
+    const ProjectorAbilities able = abilities();
+    const std::size_t bytes = static_cast<std::size_t>(able.width_px) * static_cast<std::size_t>(able.height_px) *
+                              static_cast<std::size_t>(exposures.channels);
+    const bool sized = std::ranges::all_of(pictures, [&](const Picture& p) { return p.codes.size() == bytes; });
+    if (!sized || (!pictures.empty() && pictures.size() != exposures.start_s.size())) {
+      return Fault{"projector.unable", seat_.where(), "these are not the pictures of one period", "arm it for them"};
+    }
+    const std::uint64_t run = desk_->books.run();
+    const auto period = desk_->books.post();
+    if (!period) return period.fault();
+    const auto kept = std::make_shared<const std::vector<Picture>>(std::move(pictures));
+    for (std::uint32_t i = 0; i < exposures.start_s.size(); ++i) {
+      const auto call = [desk = desk_, kept, run, number = *period, i](void* device, char* error) {
+        const Picture* picture = kept->empty() ? nullptr : &(*kept)[i];
+        return submit(*desk, device, run, number, i, picture, error);
+      };
+      seat_.post(call, room_s + submit_s);
+    }
+    return {};
+  }
+
+  bool dark() noexcept override {
+    ++darkened_;
+    desk_->books.end();
+    return seat_.make_safe(dark_s);
+  }
+
+ private:
+  std::shared_ptr<Desk> desk_;
+  std::atomic<std::uint64_t> darkened_ = 0;
+  PluginSeat seat_;
+};
+
+}  // namespace
+
+std::unique_ptr<Projector> make_plugin_projector(const PluginProjectorSettings& settings) {
+  return std::make_unique<PluginProjector>(settings);
+}
+
+}  // namespace focalstage
