@@ -71,6 +71,7 @@ struct PluginSeat::Shared {
   bool running = false;
   std::optional<Fault> fault;
   bool safety_due = false;
+  std::uint64_t openings = 0;
   double heard_s = 0.0;
   double temperature_c = std::nan("");
   DeviceId id{"plugin", "", "", ""};
@@ -101,6 +102,8 @@ struct PluginSeat::Shared {
     (awaited ? device : parted) = opened_device;
     if (!awaited) return;
     id = its;
+    ++openings;
+    safety_due = false;  // that was for the one before
     phase = DevicePhase::ready;
     running = false;
     fault.reset();
@@ -298,15 +301,21 @@ void PluginSeat::look() {
                    "it has not been heard of for " + std::to_string(settings_.silent_s) + " s",
                    "see that it is plugged in and switched on"});
   }
+  std::uint64_t opening = 0;
   {
     const std::lock_guard lock(shared_->mutex);
     if (!std::exchange(shared_->safety_due, false)) return;
+    opening = shared_->openings;
   }
-  safety_.post(
-      [shared = shared_] {
-        if (void* const device = shared->open_device()) (void)shared->calls.make_safe(device);
-      },
-      safety_s);
+  const auto call = [shared = shared_, opening] {
+    void* device = nullptr;
+    {
+      const std::lock_guard lock(shared->mutex);
+      if (shared->openings == opening) device = shared->device;
+    }
+    if (device != nullptr) (void)shared->calls.make_safe(device);
+  };
+  safety_.post(call, safety_s);
 }
 
 }  // namespace focalstage

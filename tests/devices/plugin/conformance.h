@@ -92,7 +92,9 @@ class Conformance {
   bool feed(std::uint64_t periods) {
     int posted = 0;
     return within(10.0, [&] {
-      while (posted < 60 && projector_->post(period_of(*projector_, 4 * posted + 1)).ok()) ++posted;
+      while (posted < static_cast<int>(projector_->report().periods) + 3 &&
+             projector_->post(period_of(*projector_, 4 * posted + 1)).ok())
+        ++posted;
       return !answers() || projector_->report().periods >= periods;
     });
   }
