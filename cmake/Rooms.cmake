@@ -42,6 +42,8 @@ focalstage_room(devices/lightcrafter USES devices/display devices/planes devices
 focalstage_room(devices/usb     USES core/base                     PRIVATE_LIBS usb::usb)
 focalstage_room(devices/mcc1208 USES devices/usb devices/roles core/base)
 focalstage_room(devices/optotune USES devices/serial devices/roles core/base)
+focalstage_room(devices/sample  USES devices/roles core/base)
+focalstage_room(devices/input   USES devices/roles core/base       PRIVATE_LIBS hidapi::hidraw)
 focalstage_room(devices/plugin  USES devices/roles core/base       PRIVATE_LIBS ${CMAKE_DL_LIBS} Threads::Threads)
 focalstage_room(devices/player  USES devices/roles io/show core/schedule)
 focalstage_room(devices/runtime USES devices/player devices/sim devices/roles io/show io/project io/assets io/json io/protocol io/files
