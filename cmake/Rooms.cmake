@@ -73,5 +73,5 @@ focalstage_room(editor/session  USES editor/tools editor/document editor/preview
 focalstage_room(editor/window/base   USES editor/session           LIBS imgui::imgui vtk::vtk PRIVATE_LIBS epoxy::epoxy)
 focalstage_room(editor/window/views  USES editor/window/base editor/tools)
 focalstage_room(editor/window/panels USES editor/window/base)
-focalstage_room(editor/window/app    USES editor/window/views editor/window/panels
+focalstage_room(editor/window/app    USES editor/window/views editor/window/panels devices/input devices/roles
                                      PRIVATE_LIBS glfw::glfw epoxy::epoxy CLI11::CLI11)

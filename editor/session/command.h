@@ -23,6 +23,8 @@ struct Command {
   std::string (*unavailable)(const Session&);
   /// `args`: an object; each command documents its own in `help` or beside its definition. Faults say what was wrong.
   Status (*run)(Session&, const Value& args);
+  /// Whether menus and the palette list it at all; none: always.
+  bool (*shown)(const Session&) = nullptr;
 };
 
 /// All commands, in the order of the palette.

@@ -19,6 +19,7 @@ void add_place_commands(CommandList& list);
 void add_time_commands(CommandList& list);
 void add_sweep_commands(CommandList& list);
 void add_view_commands(CommandList& list);
+void add_steer_commands(CommandList& list);
 void add_eye_commands(CommandList& list);
 void add_rig_commands(CommandList& list);
 void add_finding_commands(CommandList& list);

@@ -24,6 +24,7 @@ std::span<const Command> commands() {
     add_time_commands(made);
     add_sweep_commands(made);
     add_view_commands(made);
+    add_steer_commands(made);
     add_eye_commands(made);
     add_rig_commands(made);
     add_finding_commands(made);

@@ -47,6 +47,8 @@ Value value_of(const ViewState& view) {
   value.set("distance_m", view.camera.distance_m);
   value.set("filled", view.filled ? Value(static_cast<int>(*view.filled)) : Value());
   value.set("tool", static_cast<int>(view.tool));
+  value.set("space_mouse", view.steering.present);
+  value.set("space_mouse_moves_selected", view.steering.moves_selected);
   value.set("space", static_cast<int>(view.space));
   value.set("eye", static_cast<int>(view.eye));
   value.set("compensation", static_cast<int>(view.compensation));

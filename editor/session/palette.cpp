@@ -77,6 +77,7 @@ PaletteEntry entry_of(const Thing& thing) {
 std::vector<PaletteEntry> palette_entries(const Session& session, std::string_view query) {
   Ranking ranking(query);
   for (const Command& command : commands()) {
+    if (command.shown != nullptr && !command.shown(session)) continue;
     if (command.in_palette && command.id != "app.palette") ranking.add(entry_of(session, command));
   }
   if (query.empty()) return ranking.take();

@@ -10,6 +10,7 @@
 #include "editor/preview/preview_values.h"
 #include "editor/session/thing.h"
 #include "editor/tools/handle_frame.h"
+#include "editor/tools/motion_steer.h"
 #include "editor/tools/room_camera.h"
 
 namespace focalstage {
@@ -18,6 +19,15 @@ enum class PaneId { room, projector, eye, time };
 enum class LookThrough { nothing, left_eye, right_eye, projector };
 enum class Compensation { on, off, difference };
 enum class ProjectorPicture { slice, assignment };
+
+/// A six-axis input (a SpaceMouse) at this editor.
+struct SteeringState {
+  bool present = false;         ///< it is plugged in; where not, nothing is shown of it
+  bool moves_selected = false;  ///< else the room's camera
+  SteerSettings how;
+
+  bool operator==(const SteeringState&) const = default;
+};
 
 /// What the views show and how: nothing of this is the project's.
 struct ViewState {
@@ -33,6 +43,7 @@ struct ViewState {
   bool snap = false;
   double snap_m = 0.01;
   double snap_deg = 5.0;
+  SteeringState steering;
 
   Side side = Side::left;  ///< whose images the projector view shows
   int image = 0;           ///< in the image plan

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "devices/input/spacemouse.h"
 #include "editor/window/base/fonts.h"
 #include "editor/window/base/frame_wish.h"
 #include "editor/window/base/vtk_target.h"
@@ -49,10 +50,13 @@ Editor::Editor(std::unique_ptr<GlfwWindow> window, const EditorOptions& options)
   ui_.warn = [](const std::string& line) { warn(line); };
   send_vtk_messages_to(warn);
   set_scale(options.scale > 0.0 ? options.scale : window_->content_scale());
+  session_.view().steering.how = remembered_.steer;
+  if (options.space_mouse) steering_.emplace(make_spacemouse(), &GlfwWindow::wake);
 }
 
 Editor::~Editor() {
   remember();
+  steering_.reset();
   workbench_.finalize();
   painter_.release();
   send_vtk_messages_to(nullptr);
@@ -84,7 +88,8 @@ bool Editor::take_news(double wait_s) {
   const bool due = seconds_now() >= wish_at_s_;
   const bool resized = window_->framebuffer_px() != drawn_size_px_ || window_->take_exposed();
   if (resized) painter_.touch_all();
-  if (news || hands || resized) lively_frames_ = frames_after_news;
+  const bool pushed = steering_ && steering_->wants_frame(session_);
+  if (news || hands || resized || pushed) lively_frames_ = frames_after_news;
   return lively_frames_ > 0 || due || workbench_.unsettled();
 }
 
@@ -115,13 +120,15 @@ void Editor::show_frame(const FrameKind& kind) {
   ui_.begin_frame(size, kind.delta_s);
   follow_shortcuts();
   import_dropped();
+  if (steering_) steering_->follow(session_, kind.delta_s, seconds_now(), ImGui::IsAnyMouseDown());
   const auto& filled = session_.view().filled;
   WorkbenchFrame shown{size, scale_, session_.has_document(), std::nullopt, kind.drawn};
   if (filled) shown.filled = static_cast<int>(*filled);
   workbench_.draw(session_, shown, painter_);
   follow_fill_press();
   // A field that went away while it was dragged cannot say that the hand let go.
-  if (session_.dragging() && !ImGui::IsAnyMouseDown()) session_.end_drag();
+  const bool steered = steering_ && steering_->drags();
+  if (session_.dragging() && !ImGui::IsAnyMouseDown() && !steered) session_.end_drag();
   ui_.end_frame();
   wish_at_s_ = seconds_now() + take_frame_wish();
   lively_frames_ = std::max(0, lively_frames_ - 1);
@@ -189,7 +196,8 @@ void Editor::want_names() {
 
 void Editor::remember() {
   if (config_.empty()) return;
-  const WindowConfig now{workbench_.splits(), drawn_size_px_.x > 0 ? drawn_size_px_ : remembered_.size_px};
+  const WindowConfig now{workbench_.splits(), drawn_size_px_.x > 0 ? drawn_size_px_ : remembered_.size_px,
+                         session_.view().steering.how};
   if (now == remembered_) return;
   if (const Status saved = save_window_config(now, config_); !saved) warn(describe(saved.fault()));
 }

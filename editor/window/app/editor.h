@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "editor/session/session.h"
 #include "editor/window/app/frame_painter.h"
 #include "editor/window/app/glfw_window.h"
+#include "editor/window/app/steering.h"
 #include "editor/window/app/ui_context.h"
 #include "editor/window/app/window_config.h"
 #include "editor/window/app/workbench.h"
@@ -20,6 +22,7 @@ struct EditorOptions {
   double scale = 0.0;            ///< 0: the monitor's
   std::filesystem::path config;  ///< folder where the window's layout is remembered; empty: nowhere
   WindowConfig remembered;
+  bool space_mouse = false;  ///< look for one; not where hands are played
 };
 
 /// What a frame is for.
@@ -72,6 +75,7 @@ class Editor {
   FramePainter painter_;
   Session session_;
   Workbench workbench_;
+  std::optional<Steering> steering_;
   std::filesystem::path config_;
   WindowConfig remembered_;
   double scale_ = 1.0;

@@ -63,6 +63,7 @@ int open_and_play(const Arguments& arguments) {
   if (!scripted) {  // what is scripted looks the same on every machine
     options.config = UserFolders::of_environment().config;
     options.remembered = load_window_config(options.config);
+    options.space_mouse = true;
   }
   options.window.size_px = options.remembered.size_px;
   options.window.hidden = arguments.hidden;

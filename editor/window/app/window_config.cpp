@@ -18,6 +18,12 @@ void take(const Value& object, std::string_view key, double least, double most, 
   if (number != nullptr && *number >= least && *number <= most) into = *number;
 }
 
+void take(const Value& object, std::string_view key, bool& into) {
+  const Value* member = object.find(key);
+  const bool* flag = member != nullptr ? member->boolean() : nullptr;
+  if (flag != nullptr) into = *flag;
+}
+
 }  // namespace
 
 WindowConfig load_window_config(const std::filesystem::path& folder) {
@@ -36,6 +42,10 @@ WindowConfig load_window_config(const std::filesystem::path& folder) {
   take(*value, "width_px", 320.0, 16384.0, width);
   take(*value, "height_px", 200.0, 16384.0, height);
   config.size_px = {static_cast<int>(width), static_cast<int>(height)};
+  take(*value, "space_mouse_sensitivity", least_sensitivity, most_sensitivity, config.steer.sensitivity);
+  take(*value, "space_mouse_invert_push", config.steer.invert_push);
+  take(*value, "space_mouse_invert_turn", config.steer.invert_turn);
+  take(*value, "space_mouse_flies", config.steer.fly);
   return config;
 }
 
@@ -48,6 +58,10 @@ Status save_window_config(const WindowConfig& config, const std::filesystem::pat
   object.set("down", config.splits.down);
   object.set("width_px", config.size_px.x);
   object.set("height_px", config.size_px.y);
+  object.set("space_mouse_sensitivity", config.steer.sensitivity);
+  object.set("space_mouse_invert_push", config.steer.invert_push);
+  object.set("space_mouse_invert_turn", config.steer.invert_turn);
+  object.set("space_mouse_flies", config.steer.fly);
   std::error_code problem;
   std::filesystem::create_directories(folder, problem);
   return write_file_atomically(folder / file_name, write_json(object) + "\n");

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "core/base/result.h"
+#include "editor/tools/motion_steer.h"
 #include "editor/window/app/layout.h"
 
 namespace focalstage {
@@ -11,6 +12,7 @@ namespace focalstage {
 struct WindowConfig {
   Splits splits;
   glm::ivec2 size_px{1600, 900};
+  SteerSettings steer;
 
   bool operator==(const WindowConfig&) const = default;
 };

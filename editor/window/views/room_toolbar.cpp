@@ -18,6 +18,7 @@ void command_chip(Session& session, Chips& chips, std::string_view id, std::stri
                   bool down) {
   const Command* command = command_named(id);
   if (command == nullptr) return;
+  if (command->shown != nullptr && !command->shown(session)) return;
   const std::string unavailable = command->unavailable(session);
   ButtonStyle style;
   style.icon = icon;
@@ -28,7 +29,7 @@ void command_chip(Session& session, Chips& chips, std::string_view id, std::stri
 
 void menu_row(Session& session, std::string_view id, bool on) {
   const Command* command = command_named(id);
-  if (command == nullptr) return;
+  if (command == nullptr || (command->shown != nullptr && !command->shown(session))) return;
   const std::string unavailable = command->unavailable(session);
   ListRowStyle style;
   style.icon = "check";
@@ -72,6 +73,10 @@ void draw_view_menu(RoomFrame& frame) {
   menu_row(frame.session, "view.sheets", state.show_sheets);
   menu_row(frame.session, "view.frusta", state.show_frusta);
   menu_row(frame.session, "view.tint", state.tint_by_slice);
+  if (state.steering.present) ImGui::Separator();
+  menu_row(frame.session, "steer.fly", state.steering.how.fly);
+  menu_row(frame.session, "steer.invert-push", state.steering.how.invert_push);
+  menu_row(frame.session, "steer.invert-turn", state.steering.how.invert_turn);
   ImGui::EndPopup();
 }
 
@@ -89,6 +94,7 @@ void draw_room_toolbar(RoomFrame& frame) {
   command_chip(session, chips, "tool.space", state.space == HandleSpace::sight ? "sight" : "axes",
                space_name(state.space), state.space == HandleSpace::sight);
   command_chip(session, chips, "tool.snap", "snap", {}, state.snap);
+  command_chip(session, chips, "steer.selected", "move", "SpaceMouse", state.steering.moves_selected);
   ButtonStyle style;
   style.icon = "view";
   style.tip = {"Where from, and what is shown", {}, {}};

@@ -29,6 +29,7 @@ TEST_CASE("what was saved is loaded, into a folder that was not there") {
   config.splits.outline = 333.0;
   config.splits.down = 0.25;
   config.size_px = {1234, 777};
+  config.steer = {2.5, true, false, true};
   REQUIRE(save_window_config(config, folder.path / "deeper").ok());
   CHECK(load_window_config(folder.path / "deeper") == config);
 }
