@@ -141,7 +141,7 @@ std::int32_t submit(Desk& desk, void* device, std::uint64_t run, std::uint64_t p
   return FOCALSTAGE_UNABLE;
 }
 
-class PluginProjector final : public Projector {
+class PluginProjector final : public ProjectorDevice {
  public:
   explicit PluginProjector(const PluginProjectorSettings& settings)
       : desk_(std::make_shared<Desk>()), seat_(settings.plugin, calls_of(desk_), "projector") {
@@ -227,7 +227,7 @@ class PluginProjector final : public Projector {
 
 }  // namespace
 
-std::unique_ptr<Projector> make_plugin_projector(const PluginProjectorSettings& settings) {
+std::unique_ptr<ProjectorDevice> make_plugin_projector(const PluginProjectorSettings& settings) {
   return std::make_unique<PluginProjector>(settings);
 }
 

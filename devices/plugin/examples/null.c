@@ -22,10 +22,10 @@ struct focalstage_projector_device {
   int64_t first_ns; /* when the first period begins */
   double period_ns;
   int64_t start_ns[most_exposures];
-  uint32_t count;    /* of exposures in a period */
+  uint32_t count; /* of exposures in a period */
   uint32_t channels;
-  uint64_t queued;   /* pictures, ever */
-  uint64_t due;      /* exposures that came */
+  uint64_t queued; /* pictures, ever */
+  uint64_t due;    /* exposures that came */
   uint64_t shown;
 };
 
@@ -195,9 +195,13 @@ static int32_t null_status(struct focalstage_projector_device* device, struct fo
   return FOCALSTAGE_OK;
 }
 
-static const struct focalstage_projector table = {
-    sizeof table, FOCALSTAGE_PROJECTOR_ABI, "null",       null_open,    null_close,  null_describe, null_identify,
-    null_configure, null_start,             null_stop,    null_acquire, null_submit, null_status,   null_blank};
+static const struct focalstage_projector table = {sizeof table,  FOCALSTAGE_PROJECTOR_ABI,
+                                                  "null",        null_open,
+                                                  null_close,    null_describe,
+                                                  null_identify, null_configure,
+                                                  null_start,    null_stop,
+                                                  null_acquire,  null_submit,
+                                                  null_status,   null_blank};
 
 uint32_t focalstage_projector_abi(void) { return FOCALSTAGE_PROJECTOR_ABI; }
 

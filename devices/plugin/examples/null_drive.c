@@ -128,9 +128,12 @@ static int32_t drive_stop(struct focalstage_drive_device* device) {
   return FOCALSTAGE_OK;
 }
 
-static const struct focalstage_lens_drive table = {
-    sizeof table,   FOCALSTAGE_LENS_DRIVE_ABI, "null",       drive_open,   drive_close, drive_describe,
-    drive_identify, drive_start,               drive_refill, drive_status, drive_stop};
+static const struct focalstage_lens_drive table = {sizeof table,   FOCALSTAGE_LENS_DRIVE_ABI,
+                                                   "null",         drive_open,
+                                                   drive_close,    drive_describe,
+                                                   drive_identify, drive_start,
+                                                   drive_refill,   drive_status,
+                                                   drive_stop};
 
 uint32_t focalstage_lens_drive_abi(void) { return FOCALSTAGE_LENS_DRIVE_ABI; }
 

@@ -321,8 +321,8 @@ static int32_t wire_submit(struct focalstage_projector_device* device, uint8_t* 
   const int32_t code = admission(device);
   if (code != FOCALSTAGE_OK) return code;
   const struct wire_geometry* geometry = &device->geometry;
-  const struct wire_frame frame = {period,           exposure,         geometry->width_px, geometry->height_px,
-                                   device->channels, buffer == NULL, 0};
+  const struct wire_frame frame = {period,         exposure, geometry->width_px, geometry->height_px, device->channels,
+                                   buffer == NULL, 0};
   const size_t bytes = (size_t)geometry->width_px * geometry->height_px * device->channels;
   const struct part codes = {buffer, buffer == NULL ? 0 : bytes};
   pthread_mutex_lock(&device->books); /* counted before the optics can show it */
@@ -371,9 +371,13 @@ static int32_t wire_blank(struct focalstage_projector_device* device) {
   return FOCALSTAGE_LOST;
 }
 
-static const struct focalstage_projector table = {
-    sizeof table, FOCALSTAGE_PROJECTOR_ABI, "wire",       wire_open,    wire_close,  wire_describe, wire_identify,
-    wire_configure, wire_start,             wire_stop,    wire_acquire, wire_submit, wire_status,   wire_blank};
+static const struct focalstage_projector table = {sizeof table,  FOCALSTAGE_PROJECTOR_ABI,
+                                                  "wire",        wire_open,
+                                                  wire_close,    wire_describe,
+                                                  wire_identify, wire_configure,
+                                                  wire_start,    wire_stop,
+                                                  wire_acquire,  wire_submit,
+                                                  wire_status,   wire_blank};
 
 uint32_t focalstage_projector_abi(void) { return FOCALSTAGE_PROJECTOR_ABI; }
 

@@ -33,7 +33,7 @@ inline Exposures four_in_100_ms() {
 }
 
 /// Four pictures whose codes are `first`, `first` + 1...
-inline std::vector<Picture> period_of(const Projector& projector, int first) {
+inline std::vector<Picture> period_of(const ProjectorDevice& projector, int first) {
   const ProjectorAbilities able = projector.abilities();
   std::vector<Picture> pictures;
   for (int i = 0; i < 4; ++i) {
@@ -190,7 +190,7 @@ class Conformance {
   }
 
   PluginProjectorSettings settings_;
-  std::unique_ptr<Projector> projector_;
+  std::unique_ptr<ProjectorDevice> projector_;
   std::vector<std::string> broken_;
 };
 

@@ -43,7 +43,7 @@ struct Wired {
 
   TemporaryFolder folder;
   std::unique_ptr<Optics> optics;
-  std::unique_ptr<Projector> projector;
+  std::unique_ptr<ProjectorDevice> projector;
 };
 
 TEST_CASE("a plugin that nobody vouches for is not as much as loaded") {
