@@ -1,11 +1,11 @@
 #include "devices/plugin/plugin_lens_drive.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "devices/plugin/drive_samples.h"
 #include "devices/plugin/library.h"
 #include "devices/plugin/plugin_seat.h"
 #include "devices/roles/clock.h"
@@ -37,16 +37,6 @@ struct Desk {
   double most_a() const {
     const std::lock_guard lock(mutex);
     return std::max(0.0, std::min(settings.most_a, abilities.most_a));
-  }
-};
-
-struct Samples {
-  double period_ns = 0.0;
-  PerEye<std::vector<double>> drive_a;
-  std::uint64_t clamped = 0;
-
-  focalstage_drive_period told() const {
-    return {period_ns, static_cast<std::uint32_t>(drive_a.left.size()), drive_a.left.data(), drive_a.right.data()};
   }
 };
 
@@ -124,17 +114,6 @@ PluginCalls calls_of(const std::shared_ptr<Desk>& desk) {
   calls.make_safe = [desk](void* device) { return desk->table->stop(device_of(device)) == FOCALSTAGE_OK; };
   calls.close = [desk](void* device) { desk->table->close(device_of(device)); };
   return calls;
-}
-
-/// Straight lines between `from`, as `count` samples of the same period.
-std::vector<double> sampled_again(const std::vector<double>& from, std::size_t count) {
-  std::vector<double> out(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double at = static_cast<double>(i) * static_cast<double>(from.size()) / static_cast<double>(count);
-    const auto k = static_cast<std::size_t>(at);
-    out[i] = std::lerp(from[k], from[(k + 1) % from.size()], at - static_cast<double>(k));
-  }
-  return out;
 }
 
 class PluginLensDrive final : public LensDrive {
@@ -225,26 +204,8 @@ class PluginLensDrive final : public LensDrive {
     desk_->running = false;
   }
 
-  /// Cut to the limit, and to as many samples as it takes.
-  Result<Samples> samples_of(const DrivePeriod& period) const {
-    const DriveAbilities able = abilities();
-    const auto& drive = period.drive_a;
-    const auto unable = [&](const char* what) { return Fault{"drive.unable", seat_.where(), what, ""}; };
-    if (!(period.period_s > 0.0) || drive.left.empty() || drive.left.size() != drive.right.size()) {
-      return unable("this is no period of current for two eyes");
-    }
-    if (!able.eyes_apart && drive.left != drive.right) return unable("it has one channel for both lenses");
-    Samples out{period.period_s * 1e9, drive, 0};
-    for (std::vector<double>* eye : {&out.drive_a.left, &out.drive_a.right}) {
-      const auto most = static_cast<std::size_t>(able.most_samples.value_or(0));
-      if (most > 0 && eye->size() > most) *eye = sampled_again(*eye, most);
-      for (double& a : *eye) {
-        if (std::abs(a) <= able.most_a) continue;  // what is no number is cut too
-        a = std::isnan(a) ? 0.0 : std::clamp(a, -able.most_a, able.most_a);
-        ++out.clamped;
-      }
-    }
-    return out;
+  Result<DriveSamples> samples_of(const DrivePeriod& period) const {
+    return drive_samples(period, abilities(), seat_.where());
   }
 
   std::shared_ptr<Desk> desk_;
