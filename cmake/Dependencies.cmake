@@ -11,6 +11,7 @@ find_package(JPEG REQUIRED)
 find_package(TinyGLTF REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(Boost 1.74 REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(spdlog REQUIRED)
 find_package(doctest REQUIRED)
 

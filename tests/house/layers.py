@@ -37,6 +37,7 @@ LIBRARY_OF = [
     (r"^boost/", "Boost::headers"),
     (r"^spdlog/", "spdlog::spdlog"),
     (r"^glm/", "glm::glm"),
+    (r"^Eigen/", "Eigen3::Eigen"),
     (r"^(grpc|grpcpp|grpc\+\+)/", "gRPC::grpc++"),
     (r"^google/protobuf/", "protobuf::libprotobuf"),
     (r"^imgui|^backends/imgui", "imgui::imgui"),
