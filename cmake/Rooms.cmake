@@ -44,6 +44,7 @@ focalstage_room(devices/lightcrafter USES devices/display devices/planes devices
 focalstage_room(devices/usb     USES core/base                     PRIVATE_LIBS usb::usb)
 focalstage_room(devices/mcc1208 USES devices/usb devices/roles core/base)
 focalstage_room(devices/optotune USES devices/serial devices/roles core/base)
+focalstage_room(devices/recording USES devices/roles core/base)
 focalstage_room(devices/player  USES devices/roles io/show core/schedule)
 focalstage_room(devices/runtime USES devices/player devices/sim devices/roles io/show io/project io/assets io/json io/protocol io/files
                                      core/check core/compile core/schedule core/stage
