@@ -45,9 +45,11 @@ focalstage_room(devices/usb     USES core/base                     PRIVATE_LIBS 
 focalstage_room(devices/mcc1208 USES devices/usb devices/roles core/base)
 focalstage_room(devices/optotune USES devices/serial devices/roles core/base)
 focalstage_room(devices/recording USES devices/roles core/base)
+focalstage_room(devices/camera  USES devices/roles core/base)
+focalstage_room(devices/aruco   USES devices/roles core/base       PRIVATE_LIBS opencv::aruco opencv::calib3d opencv::core)
 focalstage_room(devices/player  USES devices/roles io/show core/schedule)
-focalstage_room(devices/runtime USES devices/player devices/sim devices/natnet devices/recording devices/roles io/show io/project io/assets io/json io/protocol io/files
-                                     core/check core/compile core/schedule core/stage core/tracking
+focalstage_room(devices/runtime USES devices/player devices/sim devices/natnet devices/recording devices/roles io/show io/project io/assets
+                                     io/json io/protocol io/files core/check core/compile core/schedule core/stage core/tracking
                                 PRIVATE_LIBS spdlog::spdlog gRPC::grpc++ gRPC::grpc++_reflection)
 focalstage_room(devices/uno     USES devices/serial devices/roles core/base)
 # C for a microcontroller, a program of its own: on this side only its tests
