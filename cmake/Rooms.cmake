@@ -61,7 +61,7 @@ focalstage_room(editor/pipeline USES io/project io/assets io/show core/check cor
                                      core/schedule)
 focalstage_room(editor/trials   USES editor/pipeline io/study io/protocol io/show io/project core/study)
 focalstage_room(editor/cli      USES editor/samples editor/pipeline editor/trials io/study io/project io/assets io/show io/export io/plot io/protocol
-                                     core/check core/reference core/compile core/percept core/retina core/schedule
+                                     core/calibrate core/check core/reference core/compile core/percept core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
 focalstage_room(editor/document USES editor/samples io/journal io/project io/assets io/files core/scene)
 focalstage_room(editor/tools    USES core/percept core/compile core/stage core/optics core/scene core/mesh)
