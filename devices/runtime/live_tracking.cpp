@@ -81,7 +81,7 @@ std::uint64_t LiveTracking::newest() const {
 
 void LiveTracking::watch(std::set<std::string> bodies) {
   const std::lock_guard lock(mutex_);
-  if (bodies.empty()) delay_->forget();
+  delay_->follow(!bodies.empty());
   watched_ = std::move(bodies);
 }
 

@@ -51,12 +51,15 @@ TEST_CASE("the delay of poses: a guess until light came, then measured") {
   PoseDelay delay(0.12);
   CHECK(delay.lead_s() == 0.12);
   CHECK(delay.pose_to_light_s() == 0.0);
+  delay.follow(true);
   delay.lit(10.0, 10.01, 10.15);
   CHECK(delay.pose_to_light_s() == doctest::Approx(0.15));
   for (int k = 0; k < 100; ++k) delay.lit(10.0, 10.01, 10.11);
   CHECK(delay.lead_s() == doctest::Approx(0.1).epsilon(1e-4));
   CHECK(delay.pose_to_light_s() == doctest::Approx(0.11).epsilon(1e-4));
-  delay.forget();
+  delay.follow(false);
+  CHECK(delay.pose_to_light_s() == 0.0);
+  delay.lit(10.0, 10.01, 10.11);  // of a show that was on its way
   CHECK(delay.pose_to_light_s() == 0.0);
 }
 
