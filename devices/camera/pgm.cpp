@@ -10,6 +10,10 @@ namespace {
 
 constexpr int longest_side_px = 16384;
 
+Fault refused(const std::string& name, const std::string& reason) {
+  return {"camera.picture", name, reason, "record binary PGM files (P5) of 8 bits"};
+}
+
 /// The next number of a header, past blanks and comments; takes the one blank behind it.
 std::optional<int> next_number(std::istream& file) {
   int c = file.get();
@@ -31,26 +35,31 @@ std::optional<int> next_number(std::istream& file) {
 
 }  // namespace
 
-Result<GrayImage> read_pgm(const std::string& path) {
-  const auto refused = [&](const std::string& reason) {
-    return Fault{"camera.picture", path, reason, "record binary PGM files (P5) of 8 bits"};
-  };
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return refused("the file can't be opened");
-  if (file.get() != 'P' || file.get() != '5') return refused("it does not begin with P5");
-  const auto width = next_number(file);
-  const auto height = next_number(file);
-  const auto white = next_number(file);
-  if (!width || !height || !white) return refused("its header is damaged");
+Result<GrayImage> read_pgm(std::istream& bytes, const std::string& name) {
+  if (bytes.get() != 'P' || bytes.get() != '5') return refused(name, "it does not begin with P5");
+  const auto width = next_number(bytes);
+  const auto height = next_number(bytes);
+  const auto white = next_number(bytes);
+  if (!width || !height || !white) return refused(name, "its header is damaged");
   if (*width < 1 || *height < 1 || *width > longest_side_px || *height > longest_side_px) {
-    return refused("it has " + std::to_string(*width) + " x " + std::to_string(*height) + " pixels");
+    return refused(name, "it has " + std::to_string(*width) + " x " + std::to_string(*height) + " pixels");
   }
-  if (*white != 255) return refused("its white is " + std::to_string(*white) + " instead of 255");
+  if (*white != 255) return refused(name, "its white is " + std::to_string(*white) + " instead of 255");
   GrayImage image{*width, *height, {}};
-  image.gray.resize(static_cast<std::size_t>(*width) * static_cast<std::size_t>(*height));
-  file.read(reinterpret_cast<char*>(image.gray.data()), static_cast<std::streamsize>(image.gray.size()));
-  if (!file) return refused("it ends too early");
+  // Row by row: a header alone does not take memory for what is not there.
+  const auto row = static_cast<std::size_t>(*width);
+  for (int y = 0; y < *height; ++y) {
+    image.gray.resize(image.gray.size() + row);
+    bytes.read(reinterpret_cast<char*>(image.gray.data() + image.gray.size() - row), static_cast<std::streamsize>(row));
+    if (!bytes) return refused(name, "it ends too early");
+  }
   return image;
+}
+
+Result<GrayImage> read_pgm(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return refused(path, "the file can't be opened");
+  return read_pgm(file, path);
 }
 
 Status write_pgm(const std::string& path, const GrayImage& image) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <istream>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct GrayImage {
 /// A binary PGM ("P5") of 8 bits (netpbm.sourceforge.net/doc/pgm.html): the one picture format that takes no library
 /// and that every tool writes. "camera.picture" with the file and the reason; at most 16384 pixels a side.
 Result<GrayImage> read_pgm(const std::string& path);
+
+/// The same of bytes that `name` is what faults call.
+Result<GrayImage> read_pgm(std::istream& bytes, const std::string& name);
 
 /// "camera.unwritable".
 Status write_pgm(const std::string& path, const GrayImage& image);
