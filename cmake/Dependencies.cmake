@@ -11,6 +11,7 @@ find_package(JPEG REQUIRED)
 find_package(TinyGLTF REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(Boost 1.74 REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(spdlog REQUIRED)
 find_package(doctest REQUIRED)
 
@@ -37,6 +38,19 @@ find_package(valijson QUIET)
 if(NOT TARGET ValiJSON::valijson)
   add_library(ValiJSON::valijson INTERFACE IMPORTED)
 endif()
+
+# OpenCV by module: its own config asks for all of them, and highgui, imgcodecs, videoio and viz drag in Qt, GDAL and
+# another VTK. Never link those.
+find_path(OPENCV_INCLUDE opencv2/aruco.hpp PATH_SUFFIXES opencv4 REQUIRED)
+foreach(module core imgproc calib3d aruco)
+  find_library(OPENCV_${module}_LIBRARY opencv_${module} REQUIRED)
+  add_library(opencv::${module} UNKNOWN IMPORTED)
+  set_target_properties(opencv::${module} PROPERTIES IMPORTED_LOCATION ${OPENCV_${module}_LIBRARY}
+                        INTERFACE_INCLUDE_DIRECTORIES ${OPENCV_INCLUDE})
+endforeach()
+target_link_libraries(opencv::imgproc INTERFACE opencv::core)
+target_link_libraries(opencv::calib3d INTERFACE opencv::imgproc)
+target_link_libraries(opencv::aruco INTERFACE opencv::calib3d)
 
 # The window: GLFW, Dear ImGui with its GL3 backend and FreeType builder, and VTK by component.
 find_package(glfw3 3.3 REQUIRED)

@@ -11,7 +11,9 @@ focalstage_room(core/retina     USES core/optics core/stage        PRIVATE_LIBS 
 focalstage_room(core/reference  USES core/retina core/compile core/optics core/stage PRIVATE_LIBS embree TBB::tbb)
 focalstage_room(core/schedule   USES core/optics core/scene)
 focalstage_room(core/percept    USES core/retina core/schedule core/compile core/optics core/stage PRIVATE_LIBS TBB::tbb)
+focalstage_room(core/tracking   USES core/scene core/base)
 focalstage_room(core/study      USES core/base                     PRIVATE_LIBS Boost::headers)
+focalstage_room(core/calibrate  USES core/base                     PRIVATE_LIBS Eigen3::Eigen Boost::headers)
 focalstage_room(core/check      USES core/percept core/compile core/schedule core/optics core/scene)
 
 # io: everything that becomes bytes
@@ -45,9 +47,12 @@ focalstage_room(devices/optotune USES devices/serial devices/roles core/base)
 focalstage_room(devices/sample  USES devices/roles core/base)
 focalstage_room(devices/input   USES devices/roles core/base       PRIVATE_LIBS hidapi::hidraw)
 focalstage_room(devices/plugin  USES devices/roles core/base       PRIVATE_LIBS ${CMAKE_DL_LIBS} Threads::Threads)
+focalstage_room(devices/recording USES devices/roles core/base)
+focalstage_room(devices/camera  USES devices/roles core/base)
+focalstage_room(devices/aruco   USES devices/roles core/base       PRIVATE_LIBS opencv::aruco opencv::calib3d opencv::core)
 focalstage_room(devices/player  USES devices/roles io/show core/schedule)
-focalstage_room(devices/runtime USES devices/player devices/sim devices/roles io/show io/project io/assets io/json io/protocol io/files
-                                     core/check core/compile core/schedule core/stage
+focalstage_room(devices/runtime USES devices/player devices/sim devices/natnet devices/recording devices/roles io/show io/project io/assets
+                                     io/json io/protocol io/files core/check core/compile core/schedule core/stage core/tracking
                                 PRIVATE_LIBS spdlog::spdlog gRPC::grpc++ gRPC::grpc++_reflection)
 focalstage_room(devices/uno     USES devices/serial devices/roles core/base)
 # C for a microcontroller, a program of its own: on this side only its tests
@@ -59,7 +64,7 @@ focalstage_room(editor/pipeline USES io/project io/assets io/show core/check cor
                                      core/schedule)
 focalstage_room(editor/trials   USES editor/pipeline io/study io/protocol io/show io/project core/study)
 focalstage_room(editor/cli      USES editor/samples editor/pipeline editor/trials io/study io/project io/assets io/show io/export io/plot io/protocol
-                                     core/check core/reference core/compile core/percept core/retina core/schedule
+                                     core/calibrate core/check core/reference core/compile core/percept core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
 focalstage_room(editor/document USES editor/samples io/journal io/project io/assets io/files core/scene)
 focalstage_room(editor/tools    USES core/percept core/compile core/stage core/optics core/scene core/mesh)

@@ -58,20 +58,32 @@ v1::LiveReply appeared_reply(const LiveSnapshot& snapshot, std::uint64_t sweep, 
 
 }  // namespace
 
-/// Hands the frame to the rig first; then whoever looks at it may.
-void LiveSession::present(const LiveSnapshot& snapshot, std::shared_ptr<LoadedShow> show, double compile_s,
-                          bool share) {
+/// Hands the frame to the rig first; then whoever looks at it may. Where only bodies moved the editor is told nothing.
+void LiveSession::present(const LiveSnapshot& snapshot, LiveMade made, bool share) {
   // Of the snapshot only the numbers go along: the rig's thread lets go of the show, and must not free a project.
   LiveSnapshot numbers = snapshot;
   numbers.project.reset();
   numbers.files.clear();
   const bool real_time = bench_.clock == RigClock::real_time;
-  show->on_light = [outbox = outbox_, numbers, real_time](std::uint64_t sweep, double start_s) {
-    outbox->put(appeared_reply(numbers, sweep, real_time ? start_s : monotonic_s()));
+  std::function<void(double light_s)> pose_lit = [](double) {};
+  if (made.posed) {
+    const double seen_s = made.posed->seen_s;
+    const double taken_s = made.posed->taken_s;
+    pose_lit = [=, delay = bench_.tracking->delay()](double light_s) { delay->lit(seen_s, taken_s, light_s); };
+  }
+  // Where bodies move a show may be overtaken before it was shown: the first in light speaks for its revision.
+  if (made.first) appeared_ = std::make_shared<std::atomic<bool>>(false);
+  made.show->on_light = [outbox = outbox_, appeared = appeared_, numbers, real_time, pose_lit](std::uint64_t sweep,
+                                                                                               double start_s) {
+    const double light_s = real_time ? start_s : monotonic_s();
+    pose_lit(light_s);
+    if (!appeared->exchange(true)) outbox->put(appeared_reply(numbers, sweep, light_s));
   };
-  const PreparedFrames::Frame images = *show->frames->get(0);
-  bench_.rig.present(std::move(show));
-  v1::LiveReply reply = compiled_reply(snapshot, *images, compile_s);
+  const PreparedFrames::Frame images = *made.show->frames->get(0);
+  bench_.rig.present(std::move(made.show));
+  if (bench_.tracking != nullptr) bench_.tracking->watch(made.posed ? made.posed->bodies : std::set<std::string>{});
+  if (!made.first) return;
+  v1::LiveReply reply = compiled_reply(snapshot, *images, made.compile_s);
   if (share) reply.mutable_compiled()->set_frame_file(bench_.frames.write(*images));
   outbox_->put(std::move(reply));
 }
@@ -103,14 +115,13 @@ grpc::Status LiveSession::run(const v1::LiveBegin& begin) {
   {
     const std::jthread writer([this] { write(); });
     const bool share = begin.share_frames();
-    LiveThread thread(bench_.assets, bench_.terms,
-                      {[this, share](const LiveSnapshot& snapshot, std::shared_ptr<LoadedShow> show, double compile_s) {
-                         present(snapshot, std::move(show), compile_s, share);
-                       },
-                       [this](std::uint64_t revision, const Fault& fault) {
-                         spdlog::warn("live: revision {} refused: {}", revision, describe(fault));
-                         outbox_->put(refusal(revision, fault));
-                       }});
+    LiveThread thread(
+        bench_.assets, bench_.terms, bench_.tracking,
+        {[this, share](const LiveSnapshot& snapshot, LiveMade made) { present(snapshot, std::move(made), share); },
+         [this](std::uint64_t revision, const Fault& fault) {
+           spdlog::warn("live: revision {} refused: {}", revision, describe(fault));
+           outbox_->put(refusal(revision, fault));
+         }});
     ended = listen(
         begin.token(), [&] { silence.heard(); }, thread);
     // Before anything here is waited for: light first.
@@ -118,6 +129,7 @@ grpc::Status LiveSession::run(const v1::LiveBegin& begin) {
     if (!said && !silence.fell_silent() && !bench_.stopping) bench_.rig.doubt(vanished());
     outbox_->close();
   }
+  if (bench_.tracking != nullptr) bench_.tracking->watch({});
   return ended ? grpc::Status::OK : status_from(ended.fault());
 }
 

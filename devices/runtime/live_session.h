@@ -25,6 +25,7 @@ struct LiveBench {
   RigThread& rig;
   LeaseDesk& desk;
   AssetStore& assets;
+  LiveTracking* tracking;  ///< null: no tracker
   LiveFrames& frames;
   RigTerms terms;
   RigClock clock = RigClock::real_time;
@@ -54,7 +55,7 @@ class LiveSession {
   Result<std::vector<LiveFile>> expect(const google::protobuf::RepeatedPtrField<v1::LiveAsset>& assets,
                                        v1::LiveWanted& wanted, LiveThread& thread);
   void ask_for(v1::LiveWanted wanted);
-  void present(const LiveSnapshot& snapshot, std::shared_ptr<LoadedShow> show, double compile_s, bool share);
+  void present(const LiveSnapshot& snapshot, LiveMade made, bool share);
   void write();
 
   LiveBench& bench_;
@@ -62,6 +63,7 @@ class LiveSession {
   Stream& stream_;
   std::shared_ptr<LiveOutbox> outbox_;  ///< outlives the link in the shows that it made
   LiveArrivals arrivals_;
+  std::shared_ptr<std::atomic<bool>> appeared_;  ///< whether the newest revision was said to be in light
 };
 
 }  // namespace focalstage

@@ -1,6 +1,7 @@
 #include "devices/runtime/live_thread.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "devices/roles/clock.h"
@@ -16,10 +17,14 @@ std::uint64_t revision_of(const LiveChange& change) {
   return 0;
 }
 
+// How often a newer pose is looked for once it may be compiled.
+constexpr std::chrono::milliseconds pose_tick{1};
+
 }  // namespace
 
-LiveThread::LiveThread(AssetStore& assets, RigTerms rig, LiveResults results)
+LiveThread::LiveThread(AssetStore& assets, RigTerms rig, const LiveTracking* tracking, LiveResults results)
     : assets_(assets),
+      tracking_(tracking),
       results_(std::move(results)),
       maker_(assets, std::move(rig)),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
@@ -59,13 +64,28 @@ bool LiveThread::can_take_in() const { return !blobs_.empty() || (!changes_.empt
 
 void LiveThread::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  while (changed_.wait(lock, stop, [&] { return can_take_in() || stale_; }) && !stop.stop_requested()) {
+  while (wait(lock, stop)) {
     if (can_take_in()) {
       take_in(lock);
     } else {
       compile(lock, stop);
     }
   }
+}
+
+/// Until there is something to take in or to compile; false: it is to end.
+bool LiveThread::wait(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
+  const auto has_work = [&] { return can_take_in() || stale_; };
+  if (!follows_) return changed_.wait(lock, stop, has_work) && !stop.stop_requested();
+  while (!stop.stop_requested()) {
+    stale_ = stale_ || pose_is_due();
+    if (changed_.wait_for(lock, stop, pose_tick, has_work)) break;
+  }
+  return !stop.stop_requested();
+}
+
+bool LiveThread::pose_is_due() const {
+  return tracking_ != nullptr && monotonic_s() >= next_pose_s_ && tracking_->newest() != posed_;
 }
 
 void LiveThread::take_in(std::unique_lock<std::mutex>& lock) {
@@ -133,18 +153,50 @@ void LiveThread::compile(std::unique_lock<std::mutex>& lock, const std::stop_tok
   in_progress_ = source;
   lock.unlock();
   const std::stop_callback at_the_end(stop, [&] { source.request_stop(); });
-  const double started_s = monotonic_s();
-  auto made = maker_.make(snapshot, source.get_token());
+  Result<LiveMade> made = make(snapshot, source.get_token());
   const bool cancelled = !made && made.fault().code == "compile.cancelled";
-  if (made) {
-    results_.made(snapshot, std::move(*made), monotonic_s() - started_s);
-  } else if (!cancelled) {
-    results_.refused(snapshot.revision, made.fault());
-  }
+  if (!cancelled) tell(snapshot, std::move(made));
   lock.lock();
   in_progress_.reset();
   cancelled_one_ = cancelled;
   stale_ = stale_ || cancelled;
+}
+
+/// With tracked things where they will be when the light comes.
+Result<LiveMade> LiveThread::make(LiveSnapshot snapshot, const std::stop_token& stop) {
+  const double started_s = monotonic_s();
+  LiveMade made;
+  follows_ = !bodies_of(*snapshot.project).empty();
+  if (follows_) {
+    if (tracking_ == nullptr) {
+      return Fault{"rig.tracker", "project", "things are tracked, but this rig has no tracker",
+                   "start the runtime with --tracker, or give them poses"};
+    }
+    next_pose_s_ = started_s + 1.0 / snapshot.project->sweep.frequency_hz;
+    posed_ = tracking_->newest();
+    Result<PosedProject> posed = tracking_->pose(*snapshot.project);
+    if (!posed) return posed.fault();
+    snapshot.project = posed->project;
+    made.posed = std::move(*posed);
+  }
+  Result<std::shared_ptr<LoadedShow>> show = maker_.make(snapshot, stop);
+  if (!show) return show.fault();
+  made.show = std::move(*show);
+  made.compile_s = monotonic_s() - started_s;
+  return made;
+}
+
+/// What is made is handed on; what is refused again and again while bodies move is said once.
+void LiveThread::tell(const LiveSnapshot& snapshot, Result<LiveMade> made) {
+  const LiveTold now{snapshot.revision, snapshot.frame, snapshot.received_s, made ? "" : made.fault().code};
+  const bool again = told_ == now;
+  told_ = now;
+  if (made) {
+    made->first = !again;
+    results_.made(snapshot, std::move(*made));
+  } else if (!again) {
+    results_.refused(snapshot.revision, made.fault());
+  }
 }
 
 }  // namespace focalstage

@@ -32,6 +32,7 @@ Fault bad_digest(int chunk) {
 v1::RigState RigService::state() const {
   RigState state = rig_.state();
   state.holder = desk_.holder();
+  if (tracking_ != nullptr) state.pose_to_light_ms = 1e3 * tracking_->delay()->pose_to_light_s();
   return message_from(state);
 }
 
@@ -174,7 +175,8 @@ grpc::Status RigService::Live(grpc::ServerContext* context,
     return refused("live", {"rig.refused", "live", "a live link is open already", "end that one first"});
   }
   spdlog::info("{} is live", desk_.holder());
-  LiveBench bench{rig_, desk_, assets_, frames_, terms(), settings_.clock, [this] { return state(); }, stopping_};
+  LiveBench bench{rig_,     desk_, assets_, tracking_, frames_, terms(), settings_.clock, [this] { return state(); },
+                  stopping_};
   grpc::Status ended = LiveSession(bench, *context, *stream).run(first.begin());
   live_ = false;
   spdlog::info("the live link has ended");

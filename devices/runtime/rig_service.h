@@ -6,6 +6,7 @@
 #include "devices/runtime/asset_store.h"
 #include "devices/runtime/lease.h"
 #include "devices/runtime/live_frames.h"
+#include "devices/runtime/live_tracking.h"
 #include "devices/runtime/rig_thread.h"
 #include "devices/runtime/show_store.h"
 #include "focalstage/v1/rig.grpc.pb.h"
@@ -16,8 +17,14 @@ namespace focalstage {
 class RigService final : public v1::Rig::Service {
  public:
   RigService(const RigThreadSettings& settings, ShowStore& store, AssetStore& assets, LiveFrames& frames,
-             RigThread& rig, LeaseDesk& desk)
-      : settings_(settings), store_(store), assets_(assets), frames_(frames), rig_(rig), desk_(desk) {}
+             RigThread& rig, LeaseDesk& desk, LiveTracking* tracking)
+      : settings_(settings),
+        store_(store),
+        assets_(assets),
+        frames_(frames),
+        rig_(rig),
+        desk_(desk),
+        tracking_(tracking) {}
 
   /// Ends all watching and live links, so that the server can go.
   void stop() { stopping_ = true; }
@@ -50,6 +57,7 @@ class RigService final : public v1::Rig::Service {
   LiveFrames& frames_;
   RigThread& rig_;
   LeaseDesk& desk_;
+  LiveTracking* tracking_;  ///< null: no tracker
   std::atomic<bool> stopping_ = false;
   std::atomic<bool> live_ = false;
 };

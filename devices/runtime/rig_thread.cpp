@@ -222,6 +222,13 @@ void RigThread::doubt(const Fault& fault) {
   changed_.notify_all();
 }
 
+void RigThread::doubt_what_plays(const Fault& fault) {
+  const auto lock = take_turn();
+  if (!player_.running()) return;
+  make_dark(fault);
+  changed_.notify_all();
+}
+
 std::shared_ptr<const LoadedShow> RigThread::show() const {
   const auto lock = take_turn();
   return player_.show();

@@ -53,6 +53,9 @@ class RigThread {
   /// Latched darkness, for what others came to doubt.
   void doubt(const Fault& fault);
 
+  /// The same, where it matters only while something plays.
+  void doubt_what_plays(const Fault& fault);
+
   RigState state() const;
   std::shared_ptr<const LoadedShow> show() const;
 

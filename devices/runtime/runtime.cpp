@@ -12,6 +12,14 @@
 
 namespace focalstage {
 
+namespace {
+
+/// How long a pose may take to become light before it is measured: the sweeps that are handed over ahead, at 60 Hz, and
+/// a compile.
+double guessed_lead_s(const RigThreadSettings& rig) { return rig.sweeps_ahead / 60.0 + 0.02; }
+
+}  // namespace
+
 struct Runtime::State {
   State(const RuntimeOptions& options, std::unique_ptr<ShowStore> shows, std::unique_ptr<AssetStore> blobs)
       : store(std::move(shows)),
@@ -19,13 +27,18 @@ struct Runtime::State {
         frames(options.store),
         desk(options.lease),
         rig(options.rig),
-        service(options.rig, *store, *assets, frames, rig, desk) {}
+        tracking(options.tracker.tracker
+                     ? std::make_unique<LiveTracking>(options.tracker, guessed_lead_s(options.rig),
+                                                      [this](const Fault& fault) { rig.doubt_what_plays(fault); })
+                     : nullptr),
+        service(options.rig, *store, *assets, frames, rig, desk, tracking.get()) {}
 
   std::unique_ptr<ShowStore> store;  // holds the folder's lock
   std::unique_ptr<AssetStore> assets;
   LiveFrames frames;
   LeaseDesk desk;
   RigThread rig;
+  std::unique_ptr<LiveTracking> tracking;
   RigService service;
   std::unique_ptr<grpc::Server> server;
   std::string address;
@@ -72,6 +85,9 @@ Result<Runtime> Runtime::start(const RuntimeOptions& options) {
   Result<std::unique_ptr<AssetStore>> assets = AssetStore::open(options.store);
   if (!assets) return assets.fault();
   auto state = std::make_unique<State>(options, std::move(*store), std::move(*assets));
+  if (state->tracking) {
+    if (Status started = state->tracking->start(); !started) return started.fault();
+  }
   int port = 0;
   state->server = build_server(*address, state->service, port);
   if (!state->server || port == 0) {

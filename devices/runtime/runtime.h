@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/result.h"
+#include "devices/runtime/live_tracking.h"
 #include "devices/runtime/rig_thread.h"
 
 namespace focalstage {
@@ -15,12 +16,14 @@ struct RuntimeOptions {
   std::filesystem::path store;
   RigThreadSettings rig;
   std::chrono::milliseconds lease{10'000};
+  TrackerSetup tracker;
 };
 
 /// The rig daemon: a store of shows, a rig that plays them, and the service through which editors reach both.
 class Runtime {
  public:
-  /// "runtime.not-loopback", "runtime.address-in-use", "runtime.address", "store.in-use", "file.unwritable".
+  /// "runtime.not-loopback", "runtime.address-in-use", "runtime.address", "store.in-use", "file.unwritable", and those
+  /// of the tracker.
   static Result<Runtime> start(const RuntimeOptions& options);
 
   Runtime(Runtime&&) noexcept;

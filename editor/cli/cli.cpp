@@ -18,7 +18,7 @@ std::string help_text() {
       "Usage: focalstage COMMAND [ARGUMENTS]\n\nCommands:\n";
   for (const Command& command : commands()) {
     std::string name = command.name;
-    name.resize(12, ' ');
+    name.resize(13, ' ');
     text += "  " + name + command.help + "\n";
   }
   text +=

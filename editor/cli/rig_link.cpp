@@ -84,6 +84,7 @@ Value value_of(const RigState& state) {
   value.set("holder", state.holder);
   value.set("frame", state.frame);
   value.set("late_sweeps", static_cast<double>(state.late_sweeps));
+  value.set("pose_to_light_ms", state.pose_to_light_ms);
   Value::Array lateness;
   for (const LatenessBin& bin : state.lateness) {
     Value item;
@@ -103,6 +104,9 @@ std::string state_line(const RigState& state) {
                      std::to_string(state.missed_exposures) + " exposures missed, " +
                      std::to_string(state.late_sweeps) + " sweeps late, frame " + std::to_string(state.frame);
   if (!state.show_sha256.empty()) text += " of show " + state.show_sha256.substr(0, 12);
+  if (state.pose_to_light_ms > 0.0) {
+    text += ", " + std::to_string(std::lround(state.pose_to_light_ms)) + " ms from pose to light";
+  }
   if (!state.holder.empty()) text += ", held by " + state.holder;
   return text + "\n";
 }

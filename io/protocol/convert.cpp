@@ -190,6 +190,7 @@ v1::RigState message_from(const RigState& state) {
     out->set_part(temperature.part);
     out->set_celsius(temperature.celsius);
   }
+  message.set_pose_to_light_ms(state.pose_to_light_ms);
   return message;
 }
 
@@ -210,6 +211,7 @@ RigState state_from(const v1::RigState& message) {
   state.revision = message.revision();
   for (const v1::Temperature& part : message.temperatures())
     state.temperatures.push_back({part.part(), part.celsius()});
+  state.pose_to_light_ms = message.pose_to_light_ms();
   return state;
 }
 

@@ -72,6 +72,7 @@ struct RigState {
   std::vector<LatenessBin> lateness;
   std::uint64_t revision = 0;  ///< of the live link whose frame this is; 0: a show that was pushed
   std::vector<Temperature> temperatures;
+  double pose_to_light_ms = 0.0;  ///< from light on the tracker's sensors to the sweep that shows it; 0: none tracked
 
   bool operator==(const RigState&) const = default;
 };

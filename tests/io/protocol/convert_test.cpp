@@ -50,6 +50,7 @@ RigState state() {
   state.frame = 12;
   state.late_sweeps = 4;
   state.revision = 1ull << 53;
+  state.pose_to_light_ms = 118.5;
   state.temperatures = {{"left lens", 31.5}, {"projector", 44.0}};
   state.lateness = {{50.0, 10}, {std::numeric_limits<double>::infinity(), 2}};
   return state;
