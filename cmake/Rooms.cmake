@@ -27,6 +27,7 @@ focalstage_room(io/show         USES io/project io/assets io/files core/schedule
 focalstage_room(io/export       USES io/show io/image io/files      PRIVATE_LIBS TBB::tbb)
 focalstage_room(io/plot         USES core/base                     PRIVATE_LIBS cairo::cairo)
 focalstage_room(io/protocol     USES io/project io/assets io/json io/files core/check core/compile core/scene)
+focalstage_room(io/rig_config   USES io/project io/json io/files core/scene core/base)
 
 # devices: the rig; drivers see only core
 focalstage_room(devices/roles   USES core/base)
@@ -34,7 +35,7 @@ focalstage_room(devices/sim     USES devices/roles core/base)
 focalstage_room(devices/rig     USES devices/roles core/base)
 focalstage_room(devices/natnet  USES devices/roles core/base)
 focalstage_room(devices/player  USES devices/roles io/show core/schedule)
-focalstage_room(devices/runtime USES devices/player devices/sim devices/roles io/show io/project io/assets io/json io/protocol io/files
+focalstage_room(devices/runtime USES devices/player devices/sim devices/roles io/show io/project io/assets io/json io/protocol io/rig_config io/files
                                      core/check core/compile core/schedule core/stage
                                 PRIVATE_LIBS spdlog::spdlog gRPC::grpc++ gRPC::grpc++_reflection)
 

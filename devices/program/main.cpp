@@ -9,12 +9,21 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include "devices/runtime/runtime.h"
+#include "devices/runtime/configured_rig.h"
 
 namespace focalstage {
 namespace {
 
-enum ExitStatus { done = 0, wrong_usage = 2, environment = 4 };
+enum ExitStatus { done = 0, wrong_usage = 2, invalid = 3, environment = 4 };
+
+struct Flags {
+  std::string config;
+  std::string rig;
+  std::string listen;
+  std::string store;
+  bool virtual_time = false;
+  bool once = false;
+};
 
 std::filesystem::path default_store() {
   if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && *state == '/') {
@@ -36,13 +45,18 @@ sigset_t ending_signals() {
   return signals;
 }
 
+int report(const Fault& fault, int status) {
+  std::fprintf(stderr, "focalstage-runtime: %s\n", describe(fault).c_str());
+  return status;
+}
+
 int serve(const RuntimeOptions& options) {
   const sigset_t signals = ending_signals();
   const Result<Runtime> runtime = Runtime::start(options);
   if (!runtime) {
-    std::fprintf(stderr, "focalstage-runtime: %s\n", describe(runtime.fault()).c_str());
-    return runtime.fault().code == "runtime.address" || runtime.fault().code == "runtime.not-loopback" ? wrong_usage
-                                                                                                       : environment;
+    const std::string& code = runtime.fault().code;
+    return report(runtime.fault(),
+                  code == "runtime.address" || code == "runtime.not-loopback" ? wrong_usage : environment);
   }
   // The one line on stdout: whoever started us reads the port from it.
   std::printf("listening on %s\n", runtime->address().c_str());
@@ -53,33 +67,52 @@ int serve(const RuntimeOptions& options) {
   return done;
 }
 
+/// The file's word where there is one, and the flags' over it.
+Result<RigConfig> configuration(const Flags& flags) {
+  RigConfig config;
+  if (!flags.config.empty()) {
+    Result<RigConfig> read = load_rig_config(flags.config);
+    if (!read) return read.fault();
+    config = std::move(*read);
+  }
+  if (!flags.rig.empty()) config.kind = RigKind::sim;
+  if (!flags.listen.empty()) config.listen = flags.listen;
+  if (!flags.store.empty()) config.store = flags.store;
+  if (config.store.empty()) config.store = default_store();
+  return config;
+}
+
+void declare(CLI::App& app, Flags& flags) {
+  app.add_option("--config", flags.config,
+                 "the rig's configuration, rig.json (docs/formats/rig.md); flags go before it")
+      ->type_name("FILE");
+  app.add_option("--rig", flags.rig, "which rig, whatever the file says: sim, the simulated one")
+      ->check(CLI::IsMember({"sim"}));
+  app.add_option("--listen", flags.listen, "HOST:PORT, 127.0.0.1:50371 by default; port 0 picks a free one");
+  app.add_option("--store", flags.store, "folder for the shows that are pushed");
+  app.add_flag("--virtual-time", flags.virtual_time, "play as fast as the machine can, exactly the same each time");
+  app.add_flag("--once", flags.once, "hold the last frame at the end of a show instead of starting again");
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Plays shows on a rig; editors reach it over gRPC (io/protocol/focalstage/v1/rig.proto).",
                "focalstage-runtime"};
-  RuntimeOptions options;
-  std::string rig = "sim";
-  std::string store = default_store().string();
-  bool virtual_time = false;
-  bool once = false;
-  app.add_option("--rig", rig, "which rig: sim, the simulated one")
-      ->check(CLI::IsMember({"sim"}))
-      ->capture_default_str();
-  app.add_option("--listen", options.listen, "HOST:PORT on this machine; port 0 picks a free one")
-      ->capture_default_str();
-  app.add_option("--store", store, "folder for the shows that are pushed")->capture_default_str();
-  app.add_flag("--virtual-time", virtual_time, "play as fast as the machine can, exactly the same each time");
-  app.add_flag("--once", once, "hold the last frame at the end of a show instead of starting again");
+  Flags flags;
+  declare(app, flags);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);
     return status == 0 ? done : wrong_usage;
   }
-  options.store = store;
-  options.rig.clock = virtual_time ? RigClock::virtual_time : RigClock::real_time;
-  options.rig.at_end = once ? AtEnd::hold : AtEnd::loop;
+  const Result<RigConfig> config = configuration(flags);
+  if (!config) return report(config.fault(), invalid);
+  Result<RuntimeOptions> options = runtime_options(*config);
+  if (!options) return report(options.fault(), invalid);
+  options->rig.clock = flags.virtual_time ? RigClock::virtual_time : RigClock::real_time;
+  options->rig.at_end = flags.once ? AtEnd::hold : AtEnd::loop;
   spdlog::set_default_logger(spdlog::stderr_logger_mt("runtime"));
-  return serve(options);
+  return serve(*options);
 }
 
 }  // namespace

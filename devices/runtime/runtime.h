@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
 #include "devices/runtime/rig_thread.h"
+#include "io/rig_config/rig_config.h"
 
 namespace focalstage {
 
@@ -15,6 +17,8 @@ struct RuntimeOptions {
   std::filesystem::path store;
   RigThreadSettings rig;
   std::chrono::milliseconds lease{10'000};
+  NetworkConfig network;
+  std::vector<ClientConfig> clients;  ///< who may do what, where the network has certificates
 };
 
 /// The rig daemon: a store of shows, a rig that plays them, and the service through which editors reach both.
