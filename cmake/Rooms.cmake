@@ -38,6 +38,8 @@ focalstage_room(devices/player  USES devices/roles io/show core/schedule)
 focalstage_room(devices/runtime USES devices/player devices/sim devices/roles io/show io/project io/assets io/json io/protocol io/rig_config io/files
                                      core/check core/compile core/schedule core/stage
                                 PRIVATE_LIBS spdlog::spdlog gRPC::grpc++ gRPC::grpc++_reflection)
+focalstage_room(devices/service USES devices/runtime io/protocol io/rig_config io/json core/base
+                                LIBS spdlog::spdlog)
 
 # editor: what people touch
 focalstage_room(editor/samples  USES io/files core/base)

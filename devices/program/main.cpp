@@ -5,11 +5,12 @@
 #include <string>
 
 #include <pthread.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
 #include "devices/runtime/configured_rig.h"
+#include "devices/service/logs.h"
+#include "devices/service/service.h"
 
 namespace focalstage {
 namespace {
@@ -50,16 +51,17 @@ int report(const Fault& fault, int status) {
   return status;
 }
 
-int serve(const RuntimeOptions& options) {
+int serve(const RigConfig& config, const RuntimeOptions& options) {
   const sigset_t signals = ending_signals();
-  const Result<Runtime> runtime = Runtime::start(options);
-  if (!runtime) {
-    const std::string& code = runtime.fault().code;
-    return report(runtime.fault(),
+  const Logs logs(config.log_level, config.log_json);
+  const auto service = Service::start(config, options, ServiceManager::from_environment());
+  if (!service) {
+    const std::string& code = service.fault().code;
+    return report(service.fault(),
                   code == "runtime.address" || code == "runtime.not-loopback" ? wrong_usage : environment);
   }
   // The one line on stdout: whoever started us reads the port from it.
-  std::printf("listening on %s\n", runtime->address().c_str());
+  std::printf("listening on %s\n", (*service)->runtime().address().c_str());
   std::fflush(stdout);
   int signal = 0;
   sigwait(&signals, &signal);
@@ -111,8 +113,7 @@ int run(int argc, char** argv) {
   if (!options) return report(options.fault(), invalid);
   options->rig.clock = flags.virtual_time ? RigClock::virtual_time : RigClock::real_time;
   options->rig.at_end = flags.once ? AtEnd::hold : AtEnd::loop;
-  spdlog::set_default_logger(spdlog::stderr_logger_mt("runtime"));
-  return serve(*options);
+  return serve(*config, *options);
 }
 
 }  // namespace

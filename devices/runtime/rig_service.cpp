@@ -16,11 +16,17 @@ namespace focalstage {
 
 namespace {
 
-/// A fault leaves as a status, and stays in the log.
-grpc::Status refused(const char* call, const Fault& fault) {
-  spdlog::warn("{}: {}", call, describe(fault));
-  return status_from(fault);
-}
+/// One more of something, as long as it is there.
+class Counted {
+ public:
+  explicit Counted(std::atomic<int>& count) : count_(count) { ++count_; }
+  ~Counted() { --count_; }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+
+ private:
+  std::atomic<int>& count_;
+};
 
 Fault bad_digest(int chunk) {
   return {"rig.request", "chunk_sha256 " + std::to_string(chunk), "it has not 32 bytes",
@@ -29,10 +35,23 @@ Fault bad_digest(int chunk) {
 
 }  // namespace
 
-v1::RigState RigService::state() const {
+/// A fault leaves as a status, and stays in the log and the count.
+grpc::Status RigService::refused(const char* call, const Fault& fault) {
+  refusals_.count(fault.code);
+  spdlog::warn("{}: {}", call, describe(fault));
+  return status_from(fault);
+}
+
+RigState RigService::values() const {
   RigState state = rig_.state();
   state.holder = desk_.holder();
-  return message_from(state);
+  return state;
+}
+
+RuntimeFigures RigService::figures() const {
+  RuntimeFigures figures{values(), push_bytes_, watchers_, rig_.faults().counts()};
+  for (const auto& [code, count] : refusals_.counts()) figures.faults[code] += count;
+  return figures;
 }
 
 RigTerms RigService::terms() const {
@@ -91,6 +110,7 @@ grpc::Status RigService::PushChunk(grpc::ServerContext*, const v1::PushChunkRequ
   if (Status mine = desk_.use(request->token()); !mine) return status_from(mine.fault());
   const auto progress = store_.add(request->sha256(), request->offset_bytes(), request->data());
   if (!progress) return refused("push", progress.fault());
+  push_bytes_ += request->data().size();
   reply->set_received_bytes(progress->received_bytes);
   reply->set_complete(progress->complete);
   return grpc::Status::OK;
@@ -151,6 +171,7 @@ grpc::Status RigService::GetState(grpc::ServerContext*, const v1::GetStateReques
 grpc::Status RigService::Watch(grpc::ServerContext* context, const v1::WatchRequest* request,
                                grpc::ServerWriter<v1::RigState>* writer) {
   using namespace std::chrono;
+  const Counted watching(watchers_);
   const double asked_s = request->interval_s();
   const double interval_s = std::isfinite(asked_s) && asked_s > 0.0 ? std::clamp(asked_s, 0.01, 10.0) : 0.1;
   const auto interval = duration_cast<milliseconds>(duration<double>(interval_s));
@@ -173,6 +194,7 @@ grpc::Status RigService::Live(grpc::ServerContext* context,
   if (live_.exchange(true)) {
     return refused("live", {"rig.refused", "live", "a live link is open already", "end that one first"});
   }
+  const Counted watching(watchers_);
   spdlog::info("{} is live", desk_.holder());
   LiveBench bench{rig_, desk_, assets_, frames_, terms(), settings_.clock, [this] { return state(); }, stopping_};
   grpc::Status ended = LiveSession(bench, *context, *stream).run(first.begin());

@@ -4,11 +4,13 @@
 
 #include "devices/runtime/admission.h"
 #include "devices/runtime/asset_store.h"
+#include "devices/runtime/figures.h"
 #include "devices/runtime/lease.h"
 #include "devices/runtime/live_frames.h"
 #include "devices/runtime/rig_thread.h"
 #include "devices/runtime/show_store.h"
 #include "focalstage/v1/rig.grpc.pb.h"
+#include "io/protocol/convert.h"
 
 namespace focalstage {
 
@@ -21,6 +23,8 @@ class RigService final : public v1::Rig::Service {
 
   /// Ends all watching and live links, so that the server can go.
   void stop() { stopping_ = true; }
+
+  RuntimeFigures figures() const;
 
   grpc::Status Describe(grpc::ServerContext*, const v1::DescribeRequest*, v1::RigDescription*) override;
   grpc::Status Acquire(grpc::ServerContext*, const v1::AcquireRequest*, v1::Lease*) override;
@@ -39,7 +43,9 @@ class RigService final : public v1::Rig::Service {
   grpc::Status Live(grpc::ServerContext*, grpc::ServerReaderWriter<v1::LiveReply, v1::LiveRequest>*) override;
 
  private:
-  v1::RigState state() const;
+  RigState values() const;
+  v1::RigState state() const { return message_from(values()); }
+  grpc::Status refused(const char* call, const Fault& fault);
   RigTerms terms() const;
   template <class Step>
   grpc::Status held(const std::string& token, v1::RigState* reply, Step step);
@@ -52,6 +58,9 @@ class RigService final : public v1::Rig::Service {
   LeaseDesk& desk_;
   std::atomic<bool> stopping_ = false;
   std::atomic<bool> live_ = false;
+  std::atomic<int> watchers_ = 0;
+  std::atomic<std::uint64_t> push_bytes_ = 0;
+  FaultTally refusals_;
 };
 
 }  // namespace focalstage

@@ -1,12 +1,12 @@
 #include "devices/runtime/runtime.h"
 
-#include <charconv>
 #include <utility>
 
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
 
+#include "devices/roles/clock.h"
 #include "devices/runtime/rig_service.h"
 #include "io/protocol/limits.h"
 
@@ -31,22 +31,9 @@ struct Runtime::State {
   std::string address;
 };
 
-Result<std::string> loopback_address(const std::string& listen) {
-  const std::size_t colon = listen.rfind(':');
-  const std::string host = colon == std::string::npos ? listen : listen.substr(0, colon);
-  const std::string port = colon == std::string::npos ? "" : listen.substr(colon + 1);
-  int number = -1;
-  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
-  if (error != std::errc() || end != port.data() + port.size() || number < 0 || number > 65535) {
-    return Fault{"runtime.address", listen, "this is not HOST:PORT", "listen on 127.0.0.1:50371"};
-  }
-  if (host == "localhost") return "127.0.0.1:" + port;
-  if (host == "127.0.0.1" || host == "[::1]") return host + ":" + port;
-  return Fault{"runtime.not-loopback", listen, "without certificates a rig is reached from its own machine only",
-               "listen on 127.0.0.1"};
-}
-
 namespace {
+
+constexpr double most_silent_s = 2.0;
 
 /// Builds a server that takes its port for itself: a second runtime on it is an error, not a sharer.
 std::unique_ptr<grpc::Server> build_server(const std::string& address, grpc::Service& service, int& port) {
@@ -94,5 +81,9 @@ Runtime::~Runtime() {
 }
 
 const std::string& Runtime::address() const { return state_->address; }
+
+RuntimeFigures Runtime::figures() const { return state_->service.figures(); }
+
+bool Runtime::keeps_time() const { return monotonic_s() - state_->rig.last_beat_s() < most_silent_s; }
 
 }  // namespace focalstage

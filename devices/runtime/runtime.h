@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "devices/runtime/address.h"
+#include "devices/runtime/figures.h"
 #include "devices/runtime/rig_thread.h"
 #include "io/rig_config/rig_config.h"
 
@@ -34,13 +36,16 @@ class Runtime {
   /// Where it listens, with the port it got.
   const std::string& address() const;
 
+  /// What it counts. Asks for the rig's lock, as every look at the state does.
+  RuntimeFigures figures() const;
+
+  /// The thread that keeps the rig's time went round in the last two seconds. Waits for nothing.
+  bool keeps_time() const;
+
  private:
   struct State;
   explicit Runtime(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
-
-/// Host and port of an address that only this machine can reach; else a fault that says so.
-Result<std::string> loopback_address(const std::string& listen);
 
 }  // namespace focalstage
