@@ -39,7 +39,7 @@ focalstage_room(devices/runtime USES devices/player devices/sim devices/roles io
                                      core/check core/compile core/schedule core/stage
                                 PRIVATE_LIBS spdlog::spdlog gRPC::grpc++ gRPC::grpc++_reflection)
 focalstage_room(devices/service USES devices/runtime io/protocol io/rig_config io/json core/base
-                                LIBS spdlog::spdlog)
+                                LIBS spdlog::spdlog PRIVATE_LIBS liblo::liblo)
 
 # editor: what people touch
 focalstage_room(editor/samples  USES io/files core/base)

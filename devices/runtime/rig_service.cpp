@@ -58,6 +58,38 @@ RigTerms RigService::terms() const {
   return {[settings = settings_](double hz) { return settings.rig.describe(settings.limits, hz); }, settings_.limits};
 }
 
+Status RigService::operate(const DeskCommand& command, bool despite_lease) {
+  using Kind = DeskCommand::Kind;
+  const std::string holder = desk_.holder();
+  const auto obey = [&]() -> Status {
+    if (command.kind != Kind::blackout && !despite_lease && !holder.empty()) {
+      return Fault{"rig.held", holder, "an editor holds the rig", "wait until it lets go; blackout is always obeyed"};
+    }
+    switch (command.kind) {
+      case Kind::play:
+        return rig_.play(0);
+      case Kind::hold:
+        return rig_.hold();
+      case Kind::cue:
+        return rig_.cue(command.cue);
+      case Kind::next:
+        return rig_.next();
+      case Kind::back:
+        return rig_.back();
+      case Kind::go:
+        return rig_.go();
+      case Kind::blackout:
+        rig_.blackout();
+        spdlog::warn("blackout by a control desk");
+        return {};
+    }
+    return {};
+  };
+  Status done = obey();
+  if (!done) (void)refused("desk", done.fault());
+  return done;
+}
+
 /// What needs the rig for oneself: the token first, then the step, then the state after it.
 template <class Step>
 grpc::Status RigService::held(const std::string& token, v1::RigState* reply, Step step) {
@@ -150,6 +182,14 @@ grpc::Status RigService::Hold(grpc::ServerContext*, const v1::HoldRequest* reque
 
 grpc::Status RigService::Cue(grpc::ServerContext*, const v1::CueRequest* request, v1::RigState* reply) {
   return held(request->token(), reply, [&] { return rig_.cue(request->name()); });
+}
+
+grpc::Status RigService::Next(grpc::ServerContext*, const v1::NextRequest* request, v1::RigState* reply) {
+  return held(request->token(), reply, [&] { return rig_.next(); });
+}
+
+grpc::Status RigService::Back(grpc::ServerContext*, const v1::BackRequest* request, v1::RigState* reply) {
+  return held(request->token(), reply, [&] { return rig_.back(); });
 }
 
 grpc::Status RigService::Go(grpc::ServerContext*, const v1::GoRequest* request, v1::RigState* reply) {

@@ -4,6 +4,7 @@
 
 #include "devices/runtime/admission.h"
 #include "devices/runtime/asset_store.h"
+#include "devices/runtime/desk_command.h"
 #include "devices/runtime/figures.h"
 #include "devices/runtime/lease.h"
 #include "devices/runtime/live_frames.h"
@@ -26,6 +27,10 @@ class RigService final : public v1::Rig::Service {
 
   RuntimeFigures figures() const;
 
+  /// A command from beside the protocol. "rig.held" while an editor holds the rig, unless `despite_lease`; blackout
+  /// always.
+  Status operate(const DeskCommand& command, bool despite_lease);
+
   grpc::Status Describe(grpc::ServerContext*, const v1::DescribeRequest*, v1::RigDescription*) override;
   grpc::Status Acquire(grpc::ServerContext*, const v1::AcquireRequest*, v1::Lease*) override;
   grpc::Status Release(grpc::ServerContext*, const v1::ReleaseRequest*, v1::ReleaseReply*) override;
@@ -36,6 +41,8 @@ class RigService final : public v1::Rig::Service {
   grpc::Status Play(grpc::ServerContext*, const v1::PlayRequest*, v1::RigState*) override;
   grpc::Status Hold(grpc::ServerContext*, const v1::HoldRequest*, v1::RigState*) override;
   grpc::Status Cue(grpc::ServerContext*, const v1::CueRequest*, v1::RigState*) override;
+  grpc::Status Next(grpc::ServerContext*, const v1::NextRequest*, v1::RigState*) override;
+  grpc::Status Back(grpc::ServerContext*, const v1::BackRequest*, v1::RigState*) override;
   grpc::Status Go(grpc::ServerContext*, const v1::GoRequest*, v1::RigState*) override;
   grpc::Status Blackout(grpc::ServerContext*, const v1::BlackoutRequest*, v1::RigState*) override;
   grpc::Status GetState(grpc::ServerContext*, const v1::GetStateRequest*, v1::RigState*) override;

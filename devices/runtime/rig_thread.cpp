@@ -196,6 +196,16 @@ Status RigThread::cue(const std::string& name) {
   return player_.cue(name);
 }
 
+Status RigThread::next() {
+  const auto lock = take_turn();
+  return player_.next();
+}
+
+Status RigThread::back() {
+  const auto lock = take_turn();
+  return player_.back();
+}
+
 Status RigThread::go() {
   const auto lock = take_turn();
   if (Status ready = rig_->ready(); !ready) return ready;

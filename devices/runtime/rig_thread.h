@@ -48,6 +48,8 @@ class RigThread {
   Status play(std::uint64_t sweeps);
   Status hold();
   Status cue(const std::string& name);
+  Status next();
+  Status back();
   Status go();
   void blackout();
 

@@ -84,6 +84,10 @@ const std::string& Runtime::address() const { return state_->address; }
 
 RuntimeFigures Runtime::figures() const { return state_->service.figures(); }
 
+Status Runtime::operate(const DeskCommand& command, bool despite_lease) const {
+  return state_->service.operate(command, despite_lease);
+}
+
 bool Runtime::keeps_time() const { return monotonic_s() - state_->rig.last_beat_s() < most_silent_s; }
 
 }  // namespace focalstage

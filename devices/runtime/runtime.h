@@ -8,6 +8,7 @@
 
 #include "core/base/result.h"
 #include "devices/runtime/address.h"
+#include "devices/runtime/desk_command.h"
 #include "devices/runtime/figures.h"
 #include "devices/runtime/rig_thread.h"
 #include "io/rig_config/rig_config.h"
@@ -38,6 +39,9 @@ class Runtime {
 
   /// What it counts. Asks for the rig's lock, as every look at the state does.
   RuntimeFigures figures() const;
+
+  /// What a control desk says: "rig.held" while an editor holds the rig, unless `despite_lease`; blackout always.
+  Status operate(const DeskCommand& command, bool despite_lease) const;
 
   /// The thread that keeps the rig's time went round in the last two seconds. Waits for nothing.
   bool keeps_time() const;

@@ -49,6 +49,14 @@ Status Service::begin(const RigConfig& config) {
     metrics_ = std::move(*metrics);
     spdlog::info("metrics at http://{}/metrics", metrics_->address());
   }
+  if (config.osc) {
+    auto osc = OscDesk::start(*config.osc, [this, despite_lease = config.osc->despite_lease](const DeskCommand& said) {
+      (void)runtime_.operate(said, despite_lease);  // a refusal is in the log
+    });
+    if (!osc) return osc.fault();
+    osc_ = std::move(*osc);
+    spdlog::info("osc at {}", osc_->address());
+  }
   manager_.ready("listening on " + runtime_.address(), [this] { return runtime_.keeps_time(); });
   return {};
 }

@@ -4,6 +4,7 @@
 
 #include "devices/runtime/runtime.h"
 #include "devices/service/http_responder.h"
+#include "devices/service/osc_desk.h"
 #include "devices/service/service_manager.h"
 #include "io/rig_config/rig_config.h"
 
@@ -20,6 +21,8 @@ class Service {
   const Runtime& runtime() const { return runtime_; }
   /// Where metrics are; empty where the file asks for none.
   std::string metrics_address() const { return metrics_ ? metrics_->address() : std::string(); }
+  /// Where a control desk is heard; empty where the file asks for none.
+  std::string osc_address() const { return osc_ ? osc_->address() : std::string(); }
 
  private:
   Service(Runtime runtime, ServiceManager manager);
@@ -27,6 +30,7 @@ class Service {
 
   Runtime runtime_;
   std::unique_ptr<HttpResponder> metrics_;
+  std::unique_ptr<OscDesk> osc_;
   ServiceManager manager_;  ///< asks the runtime: gone before it
 };
 

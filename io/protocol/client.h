@@ -52,6 +52,8 @@ class RigClient {
   Status blackout();
   Status go();  ///< clears a latched fault or blackout
   Status cue(const std::string& name);
+  Status next();  ///< to the cue after the one that is on
+  Status back();
   Result<RigState> state();
 
   /// Calls `seen` with the state every `interval` until it returns false, `stop` is requested or the rig goes away.
