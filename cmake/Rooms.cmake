@@ -26,7 +26,8 @@ focalstage_room(io/show         USES io/project io/assets io/files core/schedule
                                 PRIVATE_LIBS hdf5::hdf5 deflate::deflate TBB::tbb)
 focalstage_room(io/export       USES io/show io/image io/files      PRIVATE_LIBS TBB::tbb)
 focalstage_room(io/plot         USES core/base                     PRIVATE_LIBS cairo::cairo)
-focalstage_room(io/protocol     USES io/project io/assets io/json io/files core/check core/compile core/scene)
+focalstage_room(io/credentials  USES io/files core/base            PRIVATE_LIBS OpenSSL::Crypto OpenSSL::SSL)
+focalstage_room(io/protocol     USES io/credentials io/project io/assets io/json io/files core/check core/compile core/scene)
 focalstage_room(io/rig_config   USES io/project io/json io/files core/scene core/base)
 
 # devices: the rig; drivers see only core
@@ -35,7 +36,7 @@ focalstage_room(devices/sim     USES devices/roles core/base)
 focalstage_room(devices/rig     USES devices/roles core/base)
 focalstage_room(devices/natnet  USES devices/roles core/base)
 focalstage_room(devices/player  USES devices/roles io/show core/schedule)
-focalstage_room(devices/runtime USES devices/player devices/sim devices/roles io/show io/project io/assets io/json io/protocol io/rig_config io/files
+focalstage_room(devices/runtime USES devices/player devices/sim devices/roles io/show io/project io/assets io/json io/protocol io/credentials io/rig_config io/files
                                      core/check core/compile core/schedule core/stage
                                 PRIVATE_LIBS spdlog::spdlog gRPC::grpc++ gRPC::grpc++_reflection)
 focalstage_room(devices/service USES devices/runtime io/protocol io/rig_config io/json core/base
@@ -46,7 +47,7 @@ focalstage_room(editor/samples  USES io/files core/base)
 focalstage_room(editor/pipeline USES io/project io/assets io/show core/check core/reference core/compile core/percept core/retina
                                      core/schedule)
 focalstage_room(editor/trials   USES editor/pipeline io/study io/protocol io/show io/project core/study)
-focalstage_room(editor/cli      USES editor/samples editor/pipeline editor/trials io/study io/project io/assets io/show io/export io/plot io/protocol
+focalstage_room(editor/cli      USES editor/samples editor/pipeline editor/trials io/study io/project io/assets io/show io/export io/plot io/credentials io/protocol
                                      core/check core/reference core/compile core/percept core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
 focalstage_room(editor/document USES editor/samples io/journal io/project io/assets io/files core/scene)

@@ -6,6 +6,7 @@
 #include "devices/runtime/asset_store.h"
 #include "devices/runtime/desk_command.h"
 #include "devices/runtime/figures.h"
+#include "devices/runtime/guard.h"
 #include "devices/runtime/lease.h"
 #include "devices/runtime/live_frames.h"
 #include "devices/runtime/rig_thread.h"
@@ -19,8 +20,15 @@ namespace focalstage {
 class RigService final : public v1::Rig::Service {
  public:
   RigService(const RigThreadSettings& settings, ShowStore& store, AssetStore& assets, LiveFrames& frames,
-             RigThread& rig, LeaseDesk& desk)
-      : settings_(settings), store_(store), assets_(assets), frames_(frames), rig_(rig), desk_(desk) {}
+             RigThread& rig, LeaseDesk& desk, Guard& guard, double push_bytes_per_s)
+      : settings_(settings),
+        store_(store),
+        assets_(assets),
+        frames_(frames),
+        rig_(rig),
+        desk_(desk),
+        guard_(guard),
+        push_pace_(push_bytes_per_s, push_bytes_per_s) {}
 
   /// Ends all watching and live links, so that the server can go.
   void stop() { stopping_ = true; }
@@ -54,8 +62,9 @@ class RigService final : public v1::Rig::Service {
   v1::RigState state() const { return message_from(values()); }
   grpc::Status refused(const char* call, const Fault& fault);
   RigTerms terms() const;
+  void keep_pace(const grpc::ServerContext& context, std::size_t bytes);
   template <class Step>
-  grpc::Status held(const std::string& token, v1::RigState* reply, Step step);
+  grpc::Status held(const grpc::ServerContext* context, const std::string& token, v1::RigState* reply, Step step);
 
   RigThreadSettings settings_;
   ShowStore& store_;
@@ -63,6 +72,8 @@ class RigService final : public v1::Rig::Service {
   LiveFrames& frames_;
   RigThread& rig_;
   LeaseDesk& desk_;
+  Guard& guard_;
+  RateLimit push_pace_;
   std::atomic<bool> stopping_ = false;
   std::atomic<bool> live_ = false;
   std::atomic<int> watchers_ = 0;

@@ -2,13 +2,9 @@
 
 #include <utility>
 
-#include <grpcpp/ext/proto_server_reflection_plugin.h>
-#include <grpcpp/grpcpp.h>
-#include <grpcpp/health_check_service_interface.h>
-
 #include "devices/roles/clock.h"
 #include "devices/runtime/rig_service.h"
-#include "io/protocol/limits.h"
+#include "devices/runtime/server.h"
 
 namespace focalstage {
 
@@ -19,53 +15,35 @@ struct Runtime::State {
         frames(options.store),
         desk(options.lease),
         rig(options.rig),
-        service(options.rig, *store, *assets, frames, rig, desk) {}
+        guard(options.network, options.clients),
+        service(options.rig, *store, *assets, frames, rig, desk, guard, options.network.push_bytes_per_s) {}
 
   std::unique_ptr<ShowStore> store;  // holds the folder's lock
   std::unique_ptr<AssetStore> assets;
   LiveFrames frames;
   LeaseDesk desk;
   RigThread rig;
+  Guard guard;
   RigService service;
-  std::unique_ptr<grpc::Server> server;
-  std::string address;
+  std::unique_ptr<RigServer> server;
 };
 
 namespace {
 
 constexpr double most_silent_s = 2.0;
 
-/// Builds a server that takes its port for itself: a second runtime on it is an error, not a sharer.
-std::unique_ptr<grpc::Server> build_server(const std::string& address, grpc::Service& service, int& port) {
-  silence_grpc();
-  grpc::EnableDefaultHealthCheckService(true);
-  grpc::reflection::InitProtoReflectionServerBuilderPlugin();
-  grpc::ServerBuilder builder;
-  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-  builder.SetMaxReceiveMessageSize(message_limit_bytes);
-  builder.SetMaxSendMessageSize(message_limit_bytes);
-  builder.AddListeningPort(address, grpc::InsecureServerCredentials(), &port);
-  builder.RegisterService(&service);
-  return builder.BuildAndStart();
-}
-
 }  // namespace
 
 Result<Runtime> Runtime::start(const RuntimeOptions& options) {
-  const Result<std::string> address = loopback_address(options.listen);
-  if (!address) return address.fault();
+  if (const Result<HostPort> address = host_port(options.listen); !address) return address.fault();
   Result<std::unique_ptr<ShowStore>> store = ShowStore::open(options.store);
   if (!store) return store.fault();
   Result<std::unique_ptr<AssetStore>> assets = AssetStore::open(options.store);
   if (!assets) return assets.fault();
   auto state = std::make_unique<State>(options, std::move(*store), std::move(*assets));
-  int port = 0;
-  state->server = build_server(*address, state->service, port);
-  if (!state->server || port == 0) {
-    return Fault{"runtime.address-in-use", *address, "another program listens there, or this address can't be had",
-                 "stop the other runtime, or choose another --listen"};
-  }
-  state->address = address->substr(0, address->rfind(':') + 1) + std::to_string(port);
+  auto server = RigServer::start(options.listen, options.network, state->service);
+  if (!server) return server.fault();
+  state->server = std::move(*server);
   return Runtime(std::move(state));
 }
 
@@ -77,12 +55,17 @@ Runtime::~Runtime() {
   if (!state_) return;
   state_->rig.blackout();
   state_->service.stop();
-  if (state_->server) state_->server->Shutdown(std::chrono::system_clock::now() + std::chrono::milliseconds(200));
+  state_->server.reset();
 }
 
-const std::string& Runtime::address() const { return state_->address; }
+const std::string& Runtime::address() const { return state_->server->address(); }
 
-RuntimeFigures Runtime::figures() const { return state_->service.figures(); }
+RuntimeFigures Runtime::figures() const {
+  RuntimeFigures figures = state_->service.figures();
+  figures.connections = state_->server->doorman().connections();
+  figures.turned_away = state_->server->doorman().turned_away();
+  return figures;
+}
 
 Status Runtime::operate(const DeskCommand& command, bool despite_lease) const {
   return state_->service.operate(command, despite_lease);

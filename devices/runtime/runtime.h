@@ -27,7 +27,8 @@ struct RuntimeOptions {
 /// The rig daemon: a store of shows, a rig that plays them, and the service through which editors reach both.
 class Runtime {
  public:
-  /// "runtime.not-loopback", "runtime.address-in-use", "runtime.address", "store.in-use", "file.unwritable".
+  /// "runtime.not-loopback", "runtime.address-in-use", "runtime.address", "store.in-use", "file.unwritable",
+  /// "credentials.*".
   static Result<Runtime> start(const RuntimeOptions& options);
 
   Runtime(Runtime&&) noexcept;

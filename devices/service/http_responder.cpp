@@ -14,7 +14,7 @@
 #include <utility>
 
 #include "devices/runtime/address.h"
-#include "devices/service/sockets.h"
+#include "devices/runtime/sockets.h"
 
 namespace focalstage {
 

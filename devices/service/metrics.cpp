@@ -81,6 +81,9 @@ std::string metrics_text(const RuntimeFigures& figures) {
   for (const Temperature& part : state.temperatures) page.add(part.celsius, "part=" + quoted(part.part));
   page.one("push_bytes_total", "counter", "Bytes of shows that arrived.", static_cast<double>(figures.push_bytes));
   page.one("watchers", "gauge", "Open watch streams and live links.", figures.watchers);
+  page.one("connections", "gauge", "Open connections of clients.", figures.connections);
+  page.one("connections_turned_away_total", "counter", "Connections beyond the bound, closed at once.",
+           static_cast<double>(figures.turned_away));
   page.begin("faults_total", "counter", "Darkness and refusals, by the fault's code.");
   for (const auto& [code, count] : figures.faults) page.add(static_cast<double>(count), "code=" + quoted(code));
   return page.take();

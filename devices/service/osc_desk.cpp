@@ -15,8 +15,8 @@
 #include <spdlog/spdlog.h>
 
 #include "devices/runtime/address.h"
+#include "devices/runtime/sockets.h"
 #include "devices/service/osc_packet.h"
-#include "devices/service/sockets.h"
 
 namespace focalstage {
 
@@ -59,22 +59,24 @@ OscDesk::~OscDesk() {
 void OscDesk::run(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     pollfd watched{socket_, POLLIN, 0};
-    if (poll(&watched, 1, 100) > 0) receive();
+    if (poll(&watched, 1, 100) <= 0) continue;
+    while (!stop.stop_requested() && receive()) continue;
   }
 }
 
-void OscDesk::receive() {
+/// False where nothing waits to be heard.
+bool OscDesk::receive() {
   std::array<std::byte, most_osc_bytes + 1> packet{};
   sockaddr_storage from{};
   socklen_t from_size = sizeof from;
   const ssize_t count =
       recvfrom(socket_, packet.data(), packet.size(), MSG_DONTWAIT, reinterpret_cast<sockaddr*>(&from), &from_size);
-  if (count <= 0) return;
+  if (count < 0) return false;
   const std::string peer = ip_of(from);
   const bool known = peer.starts_with("127.") || peer == "::1" || std::ranges::count(config_.peers, peer) > 0;
   if (!known) {
     if (remarks_.take()) spdlog::warn("osc: {} may not command this rig; list it among osc.peers if it should", peer);
-    return;
+    return true;
   }
   const auto messages = osc_messages(std::span(packet).first(static_cast<std::size_t>(count)));
   for (const OscMessage& message : messages) {
@@ -82,6 +84,7 @@ void OscDesk::receive() {
     if (!command) continue;
     if (command->kind == DeskCommand::Kind::blackout || commands_.take()) obey_(*command);
   }
+  return true;
 }
 
 }  // namespace focalstage

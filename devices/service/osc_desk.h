@@ -25,7 +25,7 @@ class OscDesk {
  private:
   OscDesk(OscConfig config, std::function<void(const DeskCommand&)> obey, int socket, std::string address);
   void run(const std::stop_token& stop);
-  void receive();
+  bool receive();
 
   OscConfig config_;
   std::function<void(const DeskCommand&)> obey_;

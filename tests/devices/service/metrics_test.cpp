@@ -18,6 +18,8 @@ RuntimeFigures figures() {
   figures.state.temperatures = {{"left lens", 31.5}, {"a \"part\"\\\n", 20.0}};
   figures.push_bytes = 4096;
   figures.watchers = 2;
+  figures.connections = 5;
+  figures.turned_away = 6;
   figures.faults = {{"rig.missed-light", 1}, {"rig.request", 4}};
   return figures;
 }
@@ -39,6 +41,8 @@ TEST_CASE("every figure has its line in Prometheus' text form") {
   CHECK(has(page, "focalstage_late_sweeps_total 2"));
   CHECK(has(page, "focalstage_push_bytes_total 4096"));
   CHECK(has(page, "focalstage_watchers 2"));
+  CHECK(has(page, "focalstage_connections 5"));
+  CHECK(has(page, "focalstage_connections_turned_away_total 6"));
   CHECK(has(page, "focalstage_faults_total{code=\"rig.request\"} 4"));
   CHECK(has(page, "focalstage_temperature_celsius{part=\"left lens\"} 31.5"));
   CHECK(has(page, "focalstage_temperature_celsius{part=\"a \\\"part\\\"\\\\\\n\"} 20"));

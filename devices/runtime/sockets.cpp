@@ -1,4 +1,4 @@
-#include "devices/service/sockets.h"
+#include "devices/runtime/sockets.h"
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
@@ -13,7 +13,7 @@ namespace focalstage {
 
 namespace {
 
-constexpr int backlog = 16;
+constexpr int backlog = 128;
 
 struct SocketAddress {
   sockaddr_storage storage{};
