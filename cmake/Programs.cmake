@@ -12,5 +12,5 @@ function(focalstage_program folder)
 endfunction()
 
 focalstage_program(editor/program NAME focalstage USES editor/cli)
-focalstage_program(devices/program NAME focalstage-runtime USES devices/runtime LIBS CLI11::CLI11 spdlog::spdlog)
+focalstage_program(devices/program NAME focalstage-runtime USES devices/service LIBS CLI11::CLI11 spdlog::spdlog)
 focalstage_program(editor/window/program NAME focalstage-editor USES editor/window/app)

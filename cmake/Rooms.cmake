@@ -28,7 +28,9 @@ focalstage_room(io/show         USES io/project io/assets io/files core/schedule
                                 PRIVATE_LIBS hdf5::hdf5 deflate::deflate TBB::tbb)
 focalstage_room(io/export       USES io/show io/image io/files      PRIVATE_LIBS TBB::tbb)
 focalstage_room(io/plot         USES core/base                     PRIVATE_LIBS cairo::cairo)
-focalstage_room(io/protocol     USES io/project io/assets io/json io/files core/check core/compile core/scene)
+focalstage_room(io/credentials  USES io/files core/base            PRIVATE_LIBS OpenSSL::Crypto OpenSSL::SSL)
+focalstage_room(io/protocol     USES io/credentials io/project io/assets io/json io/files core/check core/compile core/scene)
+focalstage_room(io/rig_config   USES io/project io/json io/files core/scene core/base)
 
 # devices: the rig; drivers see only core
 focalstage_room(devices/roles   USES core/base)
@@ -52,19 +54,23 @@ focalstage_room(devices/camera  USES devices/roles core/base)
 focalstage_room(devices/aruco   USES devices/roles core/base       PRIVATE_LIBS opencv::aruco opencv::calib3d opencv::core)
 focalstage_room(devices/player  USES devices/roles io/show core/schedule)
 focalstage_room(devices/runtime USES devices/player devices/sim devices/natnet devices/recording devices/roles io/show io/project io/assets
-                                     io/json io/protocol io/files core/check core/compile core/schedule core/stage core/tracking
+                                     io/json io/protocol io/credentials io/rig_config io/files core/check core/compile core/schedule core/stage
+                                     core/tracking
                                 PRIVATE_LIBS spdlog::spdlog gRPC::grpc++ gRPC::grpc++_reflection)
 focalstage_room(devices/uno     USES devices/serial devices/roles core/base)
 # C for a microcontroller, a program of its own: on this side only its tests
 focalstage_room(devices/firmware)
+focalstage_room(devices/service USES devices/runtime io/protocol io/rig_config io/json core/base
+                                LIBS spdlog::spdlog PRIVATE_LIBS liblo::liblo)
 
 # editor: what people touch
 focalstage_room(editor/samples  USES io/files core/base)
 focalstage_room(editor/pipeline USES io/project io/assets io/show core/check core/reference core/compile core/percept core/retina
                                      core/schedule)
 focalstage_room(editor/trials   USES editor/pipeline io/study io/protocol io/show io/project core/study)
-focalstage_room(editor/cli      USES editor/samples editor/pipeline editor/trials io/study io/project io/assets io/show io/export io/plot io/protocol
-                                     core/calibrate core/check core/reference core/compile core/percept core/retina core/schedule
+focalstage_room(editor/cli      USES editor/samples editor/pipeline editor/trials io/study io/project io/assets io/show io/export io/plot
+                                     io/credentials io/protocol core/calibrate core/check core/reference core/compile core/percept
+                                     core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
 focalstage_room(editor/document USES editor/samples io/journal io/project io/assets io/files core/scene)
 focalstage_room(editor/tools    USES core/percept core/compile core/stage core/optics core/scene core/mesh)

@@ -13,6 +13,10 @@ Fault nothing_to_play() {
 
 Fault still_dark() { return {"rig.refused", "rig", "the rig is dark and stays so", "say go first"}; }
 
+Fault no_cue(const char* where) {
+  return {"rig.refused", "cues", std::string("the show has no cue ") + where + " this one", "name the cue to jump to"};
+}
+
 }  // namespace
 
 const char* name_of(PlayState state) {
@@ -85,9 +89,43 @@ Status Player::cue(const std::string& name) {
   if (cue == cues.end() || cue->frame < 0 || cue->frame >= show_->header.frames) {
     return Fault{"rig.refused", "cue \"" + name + "\"", "the show has no such cue", "choose one of its cues"};
   }
-  cued_frame_ = cue->frame;
-  follow_cue();
+  jump_to(cue->frame);
   return {};
+}
+
+Status Player::next() {
+  if (!show_) return nothing_to_play();
+  const std::vector<int> frames = cue_frames();
+  const auto after = std::ranges::upper_bound(frames, cued_frame_.value_or(frame_));
+  if (after == frames.end()) return no_cue("after");
+  jump_to(*after);
+  return {};
+}
+
+Status Player::back() {
+  if (!show_) return nothing_to_play();
+  const std::vector<int> frames = cue_frames();
+  const auto after = std::ranges::upper_bound(frames, cued_frame_.value_or(frame_));
+  if (after - frames.begin() < 2) return no_cue("before");
+  jump_to(*(after - 2));
+  return {};
+}
+
+/// In order, each once.
+std::vector<int> Player::cue_frames() const {
+  std::vector<int> frames;
+  for (const ShowCue& cue : show_->header.cues) {
+    if (cue.frame >= 0 && cue.frame < show_->header.frames) frames.push_back(cue.frame);
+  }
+  std::ranges::sort(frames);
+  const auto repeated = std::ranges::unique(frames);
+  frames.erase(repeated.begin(), repeated.end());
+  return frames;
+}
+
+void Player::jump_to(int frame) {
+  cued_frame_ = frame;
+  follow_cue();
 }
 
 void Player::follow_cue() {

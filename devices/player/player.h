@@ -62,6 +62,8 @@ class Player {
   Status play(std::uint64_t sweeps = 0);  ///< then holds; 0: goes on
   Status hold();
   Status cue(const std::string& name);  ///< jumps as soon as the cue's frame is there
+  Status next();                        ///< to the cue after the frame that is on (or is cued)
+  Status back();                        ///< to the cue before the one that this frame follows
   Status go();
 
   /// Light off now; latched until `go`. Whatever was handed over for later is lost.
@@ -83,6 +85,8 @@ class Player {
 
  private:
   void change_show();
+  std::vector<int> cue_frames() const;
+  void jump_to(int frame);
   void follow_cue();
   void begin(std::shared_ptr<const LoadedShow> show);
   void advance();

@@ -7,17 +7,30 @@
 #include <vector>
 
 #include <pthread.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
+#include "devices/runtime/configured_rig.h"
 #include "devices/runtime/make_tracker.h"
-#include "devices/runtime/runtime.h"
+#include "devices/service/logs.h"
+#include "devices/service/service.h"
 
 namespace focalstage {
 namespace {
 
-enum ExitStatus { done = 0, wrong_usage = 2, environment = 4 };
+enum ExitStatus { done = 0, wrong_usage = 2, invalid = 3, environment = 4 };
+
+struct Flags {
+  std::string config;
+  std::string rig;
+  std::string listen;
+  std::string store;
+  bool virtual_time = false;
+  bool once = false;
+  std::string tracker;
+  std::string record;  ///< file that what the tracker says is written to
+  std::vector<double> tracker_pose;
+};
 
 std::filesystem::path default_store() {
   if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && *state == '/') {
@@ -39,16 +52,22 @@ sigset_t ending_signals() {
   return signals;
 }
 
-int serve(const RuntimeOptions& options) {
+int report(const Fault& fault, int status) {
+  std::fprintf(stderr, "focalstage-runtime: %s\n", describe(fault).c_str());
+  return status;
+}
+
+int serve(const RigConfig& config, const RuntimeOptions& options) {
   const sigset_t signals = ending_signals();
-  const Result<Runtime> runtime = Runtime::start(options);
-  if (!runtime) {
-    std::fprintf(stderr, "focalstage-runtime: %s\n", describe(runtime.fault()).c_str());
-    return runtime.fault().code == "runtime.address" || runtime.fault().code == "runtime.not-loopback" ? wrong_usage
-                                                                                                       : environment;
+  const Logs logs(config.log_level, config.log_json);
+  const auto service = Service::start(config, options, ServiceManager::from_environment());
+  if (!service) {
+    const std::string& code = service.fault().code;
+    return report(service.fault(),
+                  code == "runtime.address" || code == "runtime.not-loopback" ? wrong_usage : environment);
   }
   // The one line on stdout: whoever started us reads the port from it.
-  std::printf("listening on %s\n", runtime->address().c_str());
+  std::printf("listening on %s\n", (*service)->runtime().address().c_str());
   std::fflush(stdout);
   int signal = 0;
   sigwait(&signals, &signal);
@@ -64,58 +83,69 @@ Rigid pose_of(const std::vector<double>& numbers) {
 }
 
 /// What the words on the command line make of a tracker.
-Result<TrackerSetup> tracker_setup(const std::string& name, const std::string& record,
-                                   const std::vector<double>& pose) {
+Result<TrackerSetup> tracker_setup(const Flags& flags) {
   TrackerSetup setup;
-  if (name.empty()) return setup;
-  Result<std::shared_ptr<Tracker>> tracker = make_tracker(name);
+  if (flags.tracker.empty()) return setup;
+  Result<std::shared_ptr<Tracker>> tracker = make_tracker(flags.tracker);
   if (!tracker) return tracker.fault();
-  setup.tracker = record.empty() ? *tracker : recorded(*tracker, record);
-  setup.world_from_tracker = pose_of(pose);
+  setup.tracker = flags.record.empty() ? *tracker : recorded(*tracker, flags.record);
+  setup.world_from_tracker = pose_of(flags.tracker_pose);
   return setup;
+}
+
+/// The file's word where there is one, and the flags' over it.
+Result<RigConfig> configuration(const Flags& flags) {
+  RigConfig config;
+  if (!flags.config.empty()) {
+    Result<RigConfig> read = load_rig_config(flags.config);
+    if (!read) return read.fault();
+    config = std::move(*read);
+  }
+  if (!flags.rig.empty()) config.kind = RigKind::sim;
+  if (!flags.listen.empty()) config.listen = flags.listen;
+  if (!flags.store.empty()) config.store = flags.store;
+  if (config.store.empty()) config.store = default_store();
+  return config;
+}
+
+void declare(CLI::App& app, Flags& flags) {
+  app.add_option("--config", flags.config,
+                 "the rig's configuration, rig.json (docs/formats/rig.md); flags go before it")
+      ->type_name("FILE");
+  app.add_option("--rig", flags.rig, "which rig, whatever the file says: sim, the simulated one")
+      ->check(CLI::IsMember({"sim"}));
+  app.add_option("--listen", flags.listen, "HOST:PORT, 127.0.0.1:50371 by default; port 0 picks a free one");
+  app.add_option("--store", flags.store, "folder for the shows that are pushed");
+  app.add_flag("--virtual-time", flags.virtual_time, "play as fast as the machine can, exactly the same each time");
+  app.add_flag("--once", flags.once, "hold the last frame at the end of a show instead of starting again");
+  auto* tracked = app.add_option("--tracker", flags.tracker, "natnet:HOST, natnet-unicast:HOST or recording:FILE");
+  app.add_option("--record-tracker", flags.record, "writes what the tracker says to this file")->needs(tracked);
+  app.add_option("--tracker-pose", flags.tracker_pose, "world from tracker, in metres: X Y Z QX QY QZ QW")
+      ->expected(7)
+      ->needs(tracked);
 }
 
 int run(int argc, char** argv) {
   CLI::App app{"Plays shows on a rig; editors reach it over gRPC (io/protocol/focalstage/v1/rig.proto).",
                "focalstage-runtime"};
-  RuntimeOptions options;
-  std::string rig = "sim";
-  std::string store = default_store().string();
-  bool virtual_time = false;
-  bool once = false;
-  app.add_option("--rig", rig, "which rig: sim, the simulated one")
-      ->check(CLI::IsMember({"sim"}))
-      ->capture_default_str();
-  app.add_option("--listen", options.listen, "HOST:PORT on this machine; port 0 picks a free one")
-      ->capture_default_str();
-  app.add_option("--store", store, "folder for the shows that are pushed")->capture_default_str();
-  app.add_flag("--virtual-time", virtual_time, "play as fast as the machine can, exactly the same each time");
-  app.add_flag("--once", once, "hold the last frame at the end of a show instead of starting again");
-  std::string tracker;
-  std::string record;
-  std::vector<double> tracker_pose;
-  auto* tracked = app.add_option("--tracker", tracker, "natnet:HOST, natnet-unicast:HOST or recording:FILE");
-  app.add_option("--record-tracker", record, "writes what the tracker says to this file")->needs(tracked);
-  app.add_option("--tracker-pose", tracker_pose, "world from tracker, in metres: X Y Z QX QY QZ QW")
-      ->expected(7)
-      ->needs(tracked);
+  Flags flags;
+  declare(app, flags);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);
     return status == 0 ? done : wrong_usage;
   }
-  Result<TrackerSetup> setup = tracker_setup(tracker, record, tracker_pose);
-  if (!setup) {
-    std::fprintf(stderr, "focalstage-runtime: %s\n", describe(setup.fault()).c_str());
-    return wrong_usage;
-  }
-  options.tracker = std::move(*setup);
-  options.store = store;
-  options.rig.clock = virtual_time ? RigClock::virtual_time : RigClock::real_time;
-  options.rig.at_end = once ? AtEnd::hold : AtEnd::loop;
-  spdlog::set_default_logger(spdlog::stderr_logger_mt("runtime"));
-  return serve(options);
+  const Result<RigConfig> config = configuration(flags);
+  if (!config) return report(config.fault(), invalid);
+  Result<RuntimeOptions> options = runtime_options(*config);
+  if (!options) return report(options.fault(), invalid);
+  Result<TrackerSetup> tracker = tracker_setup(flags);
+  if (!tracker) return report(tracker.fault(), wrong_usage);
+  options->tracker = std::move(*tracker);
+  options->rig.clock = flags.virtual_time ? RigClock::virtual_time : RigClock::real_time;
+  options->rig.at_end = flags.once ? AtEnd::hold : AtEnd::loop;
+  return serve(*config, *options);
 }
 
 }  // namespace

@@ -16,11 +16,20 @@ namespace focalstage {
 
 namespace {
 
-/// A fault leaves as a status, and stays in the log.
-grpc::Status refused(const char* call, const Fault& fault) {
-  spdlog::warn("{}: {}", call, describe(fault));
-  return status_from(fault);
-}
+/// Each has a thread of its own.
+constexpr int most_watchers = 64;
+
+/// One more of something, as long as it is there.
+class Counted {
+ public:
+  explicit Counted(std::atomic<int>& count) : count_(count) { ++count_; }
+  ~Counted() { --count_; }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+
+ private:
+  std::atomic<int>& count_;
+};
 
 Fault bad_digest(int chunk) {
   return {"rig.request", "chunk_sha256 " + std::to_string(chunk), "it has not 32 bytes",
@@ -29,34 +38,99 @@ Fault bad_digest(int chunk) {
 
 }  // namespace
 
-v1::RigState RigService::state() const {
+/// A fault leaves as a status, and stays in the log and the count.
+grpc::Status RigService::refused(const char* call, const Fault& fault) {
+  refusals_.count(fault.code);
+  spdlog::warn("{}: {}", call, describe(fault));
+  return status_from(fault);
+}
+
+RigState RigService::values() const {
   RigState state = rig_.state();
   state.holder = desk_.holder();
   if (tracking_ != nullptr) state.pose_to_light_ms = 1e3 * tracking_->delay()->pose_to_light_s();
-  return message_from(state);
+  return state;
+}
+
+RuntimeFigures RigService::figures() const {
+  RuntimeFigures figures;
+  figures.state = values();
+  figures.push_bytes = push_bytes_;
+  figures.watchers = watchers_;
+  figures.faults = rig_.faults().counts();
+  for (const auto& [code, count] : refusals_.counts()) figures.faults[code] += count;
+  return figures;
 }
 
 RigTerms RigService::terms() const {
   return {[settings = settings_](double hz) { return settings.rig.describe(settings.limits, hz); }, settings_.limits};
 }
 
+Status RigService::operate(const DeskCommand& command, bool despite_lease) {
+  using Kind = DeskCommand::Kind;
+  const std::string holder = desk_.holder();
+  const auto obey = [&]() -> Status {
+    if (command.kind != Kind::blackout && !despite_lease && !holder.empty()) {
+      return Fault{"rig.held", holder, "an editor holds the rig", "wait until it lets go; blackout is always obeyed"};
+    }
+    switch (command.kind) {
+      case Kind::play:
+        return rig_.play(0);
+      case Kind::hold:
+        return rig_.hold();
+      case Kind::cue:
+        return rig_.cue(command.cue);
+      case Kind::next:
+        return rig_.next();
+      case Kind::back:
+        return rig_.back();
+      case Kind::go:
+        return rig_.go();
+      case Kind::blackout:
+        rig_.blackout();
+        spdlog::warn("blackout by a control desk");
+        return {};
+    }
+    return {};
+  };
+  Status done = obey();
+  if (!done) (void)refused("desk", done.fault());
+  return done;
+}
+
 /// What needs the rig for oneself: the token first, then the step, then the state after it.
 template <class Step>
-grpc::Status RigService::held(const std::string& token, v1::RigState* reply, Step step) {
+grpc::Status RigService::held(const grpc::ServerContext* context, const std::string& token, v1::RigState* reply,
+                              Step step) {
+  if (Status may = guard_.admit(*context, Right::control); !may) return refused("command", may.fault());
   if (Status mine = desk_.use(token); !mine) return status_from(mine.fault());
   if (Status done = step(); !done) return refused("command", done.fault());
   *reply = state();
   return grpc::Status::OK;
 }
 
-grpc::Status RigService::Describe(grpc::ServerContext*, const v1::DescribeRequest* request, v1::RigDescription* reply) {
+/// Waits until the chunk's bytes are paid for.
+void RigService::keep_pace(const grpc::ServerContext& context, std::size_t bytes) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point until = Clock::now() + push_pace_.owe(static_cast<double>(bytes));
+  while (!stopping_ && !context.IsCancelled() && Clock::now() < until) {
+    std::this_thread::sleep_for(std::min<Clock::duration>(until - Clock::now(), std::chrono::milliseconds(50)));
+  }
+}
+
+grpc::Status RigService::Describe(grpc::ServerContext* context, const v1::DescribeRequest* request,
+                                  v1::RigDescription* reply) {
+  if (Status may = guard_.admit(*context, Right::watch); !may) return refused("describe", may.fault());
   const double asked_hz = request->frequency_hz();
   const double frequency_hz = std::isfinite(asked_hz) && asked_hz > 0.0 ? asked_hz : 60.0;
   *reply = message_from(settings_.rig.describe(settings_.limits, frequency_hz));
   return grpc::Status::OK;
 }
 
-grpc::Status RigService::Acquire(grpc::ServerContext*, const v1::AcquireRequest* request, v1::Lease* reply) {
+grpc::Status RigService::Acquire(grpc::ServerContext* context, const v1::AcquireRequest* request, v1::Lease* reply) {
+  if (Status may = guard_.admit(*context, Right::push); !may) {
+    if (Status also = guard_.admit(*context, Right::control); !also) return refused("acquire", also.fault());
+  }
   Result<std::string> token = desk_.acquire(request->holder());
   if (!token) return status_from(token.fault());
   spdlog::info("{} holds the rig", desk_.holder());
@@ -65,12 +139,17 @@ grpc::Status RigService::Acquire(grpc::ServerContext*, const v1::AcquireRequest*
   return grpc::Status::OK;
 }
 
-grpc::Status RigService::Release(grpc::ServerContext*, const v1::ReleaseRequest* request, v1::ReleaseReply*) {
+grpc::Status RigService::Release(grpc::ServerContext* context, const v1::ReleaseRequest* request, v1::ReleaseReply*) {
+  if (Status may = guard_.admit(*context, Right::push); !may) {
+    if (Status also = guard_.admit(*context, Right::control); !also) return refused("release", also.fault());
+  }
   desk_.release(request->token());
   return grpc::Status::OK;
 }
 
-grpc::Status RigService::BeginPush(grpc::ServerContext*, const v1::BeginPushRequest* request, v1::PushProgress* reply) {
+grpc::Status RigService::BeginPush(grpc::ServerContext* context, const v1::BeginPushRequest* request,
+                                   v1::PushProgress* reply) {
+  if (Status may = guard_.admit(*context, Right::push); !may) return refused("push", may.fault());
   if (Status mine = desk_.use(request->token()); !mine) return status_from(mine.fault());
   std::vector<Sha256Value> chunks(static_cast<std::size_t>(request->chunk_sha256_size()));
   for (int i = 0; i < request->chunk_sha256_size(); ++i) {
@@ -88,17 +167,22 @@ grpc::Status RigService::BeginPush(grpc::ServerContext*, const v1::BeginPushRequ
   return grpc::Status::OK;
 }
 
-grpc::Status RigService::PushChunk(grpc::ServerContext*, const v1::PushChunkRequest* request, v1::PushProgress* reply) {
+grpc::Status RigService::PushChunk(grpc::ServerContext* context, const v1::PushChunkRequest* request,
+                                   v1::PushProgress* reply) {
+  if (Status may = guard_.admit(*context, Right::push, false); !may) return refused("push", may.fault());
   if (Status mine = desk_.use(request->token()); !mine) return status_from(mine.fault());
+  keep_pace(*context, request->data().size());
   const auto progress = store_.add(request->sha256(), request->offset_bytes(), request->data());
   if (!progress) return refused("push", progress.fault());
+  push_bytes_ += request->data().size();
   reply->set_received_bytes(progress->received_bytes);
   reply->set_complete(progress->complete);
   return grpc::Status::OK;
 }
 
-grpc::Status RigService::FinishPush(grpc::ServerContext*, const v1::FinishPushRequest* request,
+grpc::Status RigService::FinishPush(grpc::ServerContext* context, const v1::FinishPushRequest* request,
                                     v1::PushVerified* reply) {
+  if (Status may = guard_.admit(*context, Right::push); !may) return refused("push", may.fault());
   if (Status mine = desk_.use(request->token()); !mine) return status_from(mine.fault());
   const auto show = store_.finish(request->sha256());
   if (!show) return refused("push", show.fault());
@@ -109,8 +193,9 @@ grpc::Status RigService::FinishPush(grpc::ServerContext*, const v1::FinishPushRe
   return grpc::Status::OK;
 }
 
-grpc::Status RigService::Activate(grpc::ServerContext*, const v1::ActivateRequest* request, v1::RigState* reply) {
-  return held(request->token(), reply, [&]() -> Status {
+grpc::Status RigService::Activate(grpc::ServerContext* context, const v1::ActivateRequest* request,
+                                  v1::RigState* reply) {
+  return held(context, request->token(), reply, [&]() -> Status {
     const auto path = store_.find(request->sha256());
     if (!path) return path.fault();
     auto show = load_show(*path, request->sha256(), terms());
@@ -121,37 +206,52 @@ grpc::Status RigService::Activate(grpc::ServerContext*, const v1::ActivateReques
   });
 }
 
-grpc::Status RigService::Play(grpc::ServerContext*, const v1::PlayRequest* request, v1::RigState* reply) {
-  return held(request->token(), reply, [&] { return rig_.play(request->sweeps()); });
+grpc::Status RigService::Play(grpc::ServerContext* context, const v1::PlayRequest* request, v1::RigState* reply) {
+  return held(context, request->token(), reply, [&] { return rig_.play(request->sweeps()); });
 }
 
-grpc::Status RigService::Hold(grpc::ServerContext*, const v1::HoldRequest* request, v1::RigState* reply) {
-  return held(request->token(), reply, [&] { return rig_.hold(); });
+grpc::Status RigService::Hold(grpc::ServerContext* context, const v1::HoldRequest* request, v1::RigState* reply) {
+  return held(context, request->token(), reply, [&] { return rig_.hold(); });
 }
 
-grpc::Status RigService::Cue(grpc::ServerContext*, const v1::CueRequest* request, v1::RigState* reply) {
-  return held(request->token(), reply, [&] { return rig_.cue(request->name()); });
+grpc::Status RigService::Cue(grpc::ServerContext* context, const v1::CueRequest* request, v1::RigState* reply) {
+  return held(context, request->token(), reply, [&] { return rig_.cue(request->name()); });
 }
 
-grpc::Status RigService::Go(grpc::ServerContext*, const v1::GoRequest* request, v1::RigState* reply) {
-  return held(request->token(), reply, [&] { return rig_.go(); });
+grpc::Status RigService::Next(grpc::ServerContext* context, const v1::NextRequest* request, v1::RigState* reply) {
+  return held(context, request->token(), reply, [&] { return rig_.next(); });
 }
 
-grpc::Status RigService::Blackout(grpc::ServerContext*, const v1::BlackoutRequest*, v1::RigState* reply) {
+grpc::Status RigService::Back(grpc::ServerContext* context, const v1::BackRequest* request, v1::RigState* reply) {
+  return held(context, request->token(), reply, [&] { return rig_.back(); });
+}
+
+grpc::Status RigService::Go(grpc::ServerContext* context, const v1::GoRequest* request, v1::RigState* reply) {
+  return held(context, request->token(), reply, [&] { return rig_.go(); });
+}
+
+grpc::Status RigService::Blackout(grpc::ServerContext* context, const v1::BlackoutRequest*, v1::RigState* reply) {
+  if (Status may = guard_.admit(*context, Right::watch); !may) return refused("blackout", may.fault());
   rig_.blackout();
   spdlog::warn("blackout");
   *reply = state();
   return grpc::Status::OK;
 }
 
-grpc::Status RigService::GetState(grpc::ServerContext*, const v1::GetStateRequest*, v1::RigState* reply) {
+grpc::Status RigService::GetState(grpc::ServerContext* context, const v1::GetStateRequest*, v1::RigState* reply) {
+  if (Status may = guard_.admit(*context, Right::watch); !may) return refused("state", may.fault());
   *reply = state();
   return grpc::Status::OK;
 }
 
 grpc::Status RigService::Watch(grpc::ServerContext* context, const v1::WatchRequest* request,
                                grpc::ServerWriter<v1::RigState>* writer) {
+  if (Status may = guard_.admit(*context, Right::watch); !may) return refused("watch", may.fault());
   using namespace std::chrono;
+  const Counted watching(watchers_);
+  if (watchers_ > most_watchers) {
+    return refused("watch", {"rig.busy", "watch", "too many watch this rig", "let others end their watching"});
+  }
   const double asked_s = request->interval_s();
   const double interval_s = std::isfinite(asked_s) && asked_s > 0.0 ? std::clamp(asked_s, 0.01, 10.0) : 0.1;
   const auto interval = duration_cast<milliseconds>(duration<double>(interval_s));
@@ -166,6 +266,9 @@ grpc::Status RigService::Watch(grpc::ServerContext* context, const v1::WatchRequ
 
 grpc::Status RigService::Live(grpc::ServerContext* context,
                               grpc::ServerReaderWriter<v1::LiveReply, v1::LiveRequest>* stream) {
+  for (const Right needed : {Right::push, Right::control}) {
+    if (Status may = guard_.admit(*context, needed); !may) return refused("live", may.fault());
+  }
   v1::LiveRequest first;
   if (!stream->Read(&first) || !first.has_begin()) {
     return refused("live", {"rig.request", "begin", "a live link begins with the token", "say begin first"});
@@ -174,6 +277,7 @@ grpc::Status RigService::Live(grpc::ServerContext* context,
   if (live_.exchange(true)) {
     return refused("live", {"rig.refused", "live", "a live link is open already", "end that one first"});
   }
+  const Counted watching(watchers_);
   spdlog::info("{} is live", desk_.holder());
   LiveBench bench{rig_,     desk_, assets_, tracking_, frames_, terms(), settings_.clock, [this] { return state(); },
                   stopping_};

@@ -13,6 +13,9 @@ namespace focalstage {
 
 namespace {
 
+/// How often an idle rig's thread shows that it is alive.
+constexpr std::chrono::milliseconds idle_beat{100};
+
 PlayerSettings player_settings(const RigThreadSettings& settings, const Rig& rig) {
   return {settings.at_end, rig.settle_sweeps(), settings.clock == RigClock::virtual_time, rig.retimes_at_once()};
 }
@@ -35,6 +38,7 @@ RigThread::RigThread(const RigThreadSettings& settings)
       limited_(*rig_, settings.limits),
       player_(limited_, player_settings(settings, *rig_)),
       ledger_(rig_->sees_light()),
+      beat_s_(monotonic_s()),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 RigThread::~RigThread() {
@@ -68,7 +72,9 @@ bool RigThread::has_work() const {
 void RigThread::run(const std::stop_token& stop) {
   if (settings_.clock == RigClock::real_time) prefer_this_thread();
   std::unique_lock lock(mutex_);
-  while (changed_.wait(lock, stop, [&] { return has_work(); })) {
+  while (!stop.stop_requested()) {
+    beat_s_ = monotonic_s();
+    if (!changed_.wait_for(lock, stop, idle_beat, [&] { return has_work(); })) continue;
     const double period_s = player_.period_s();
     const double ahead_s = settings_.sweeps_ahead * period_s;
     if (!on_time_) {
@@ -118,6 +124,7 @@ void RigThread::hand_over_next() {
   ledger_.ask(std::move(sweep));
   if (player_.running()) return;
   on_time_ = false;
+  if (player_.fault()) faults_.count(player_.fault()->code);
   spdlog::error("dark: {}", player_.fault() ? describe(*player_.fault()) : std::string());
 }
 
@@ -152,6 +159,7 @@ void RigThread::make_dark(const Fault& fault) {
   player_.blackout(at_s, fault);
   ledger_.call_off_after(at_s);
   on_time_ = false;
+  faults_.count(fault.code);
   spdlog::error("dark: {}; {} sweeps late so far", describe(fault), late_sweeps_);
 }
 
@@ -198,6 +206,16 @@ Status RigThread::hold() {
 Status RigThread::cue(const std::string& name) {
   const auto lock = take_turn();
   return player_.cue(name);
+}
+
+Status RigThread::next() {
+  const auto lock = take_turn();
+  return player_.next();
+}
+
+Status RigThread::back() {
+  const auto lock = take_turn();
+  return player_.back();
 }
 
 Status RigThread::go() {

@@ -12,6 +12,7 @@
 
 #include "devices/player/player.h"
 #include "devices/player/priority_mutex.h"
+#include "devices/runtime/fault_tally.h"
 #include "devices/runtime/lateness.h"
 #include "devices/runtime/rig_setup.h"
 #include "devices/runtime/slot_ledger.h"
@@ -47,6 +48,8 @@ class RigThread {
   Status play(std::uint64_t sweeps);
   Status hold();
   Status cue(const std::string& name);
+  Status next();
+  Status back();
   Status go();
   void blackout();
 
@@ -58,6 +61,12 @@ class RigThread {
 
   RigState state() const;
   std::shared_ptr<const LoadedShow> show() const;
+
+  /// When this thread last went round (monotonic clock), also while there is nothing to do. Waits for nothing.
+  double last_beat_s() const { return beat_s_; }
+
+  /// How often it went dark, by the fault's code. Waits for nothing.
+  const FaultTally& faults() const { return faults_; }
 
  private:
   /// The lock, for a caller from outside: in virtual time the rig's own thread would hardly ever let go of it.
@@ -91,6 +100,8 @@ class RigThread {
   bool on_time_ = false;  ///< the timeline runs: the next sweep follows the one before
   std::uint64_t late_sweeps_ = 0;
   std::uint64_t never_handed_over_ = 0;
+  FaultTally faults_;
+  std::atomic<double> beat_s_ = 0.0;
   std::jthread thread_;
 };
 

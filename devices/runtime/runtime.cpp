@@ -1,14 +1,10 @@
 #include "devices/runtime/runtime.h"
 
-#include <charconv>
 #include <utility>
 
-#include <grpcpp/ext/proto_server_reflection_plugin.h>
-#include <grpcpp/grpcpp.h>
-#include <grpcpp/health_check_service_interface.h>
-
+#include "devices/roles/clock.h"
 #include "devices/runtime/rig_service.h"
-#include "io/protocol/limits.h"
+#include "devices/runtime/server.h"
 
 namespace focalstage {
 
@@ -27,59 +23,32 @@ struct Runtime::State {
         frames(options.store),
         desk(options.lease),
         rig(options.rig),
+        guard(options.network, options.clients),
         tracking(options.tracker.tracker
                      ? std::make_unique<LiveTracking>(options.tracker, guessed_lead_s(options.rig),
                                                       [this](const Fault& fault) { rig.doubt_what_plays(fault); })
                      : nullptr),
-        service(options.rig, *store, *assets, frames, rig, desk, tracking.get()) {}
+        service(options.rig, *store, *assets, frames, rig, desk, guard, options.network.push_bytes_per_s, tracking.get()) {}
 
   std::unique_ptr<ShowStore> store;  // holds the folder's lock
   std::unique_ptr<AssetStore> assets;
   LiveFrames frames;
   LeaseDesk desk;
   RigThread rig;
+  Guard guard;
   std::unique_ptr<LiveTracking> tracking;
   RigService service;
-  std::unique_ptr<grpc::Server> server;
-  std::string address;
+  std::unique_ptr<RigServer> server;
 };
-
-Result<std::string> loopback_address(const std::string& listen) {
-  const std::size_t colon = listen.rfind(':');
-  const std::string host = colon == std::string::npos ? listen : listen.substr(0, colon);
-  const std::string port = colon == std::string::npos ? "" : listen.substr(colon + 1);
-  int number = -1;
-  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), number);
-  if (error != std::errc() || end != port.data() + port.size() || number < 0 || number > 65535) {
-    return Fault{"runtime.address", listen, "this is not HOST:PORT", "listen on 127.0.0.1:50371"};
-  }
-  if (host == "localhost") return "127.0.0.1:" + port;
-  if (host == "127.0.0.1" || host == "[::1]") return host + ":" + port;
-  return Fault{"runtime.not-loopback", listen, "without certificates a rig is reached from its own machine only",
-               "listen on 127.0.0.1"};
-}
 
 namespace {
 
-/// Builds a server that takes its port for itself: a second runtime on it is an error, not a sharer.
-std::unique_ptr<grpc::Server> build_server(const std::string& address, grpc::Service& service, int& port) {
-  silence_grpc();
-  grpc::EnableDefaultHealthCheckService(true);
-  grpc::reflection::InitProtoReflectionServerBuilderPlugin();
-  grpc::ServerBuilder builder;
-  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-  builder.SetMaxReceiveMessageSize(message_limit_bytes);
-  builder.SetMaxSendMessageSize(message_limit_bytes);
-  builder.AddListeningPort(address, grpc::InsecureServerCredentials(), &port);
-  builder.RegisterService(&service);
-  return builder.BuildAndStart();
-}
+constexpr double most_silent_s = 2.0;
 
 }  // namespace
 
 Result<Runtime> Runtime::start(const RuntimeOptions& options) {
-  const Result<std::string> address = loopback_address(options.listen);
-  if (!address) return address.fault();
+  if (const Result<HostPort> address = host_port(options.listen); !address) return address.fault();
   Result<std::unique_ptr<ShowStore>> store = ShowStore::open(options.store);
   if (!store) return store.fault();
   Result<std::unique_ptr<AssetStore>> assets = AssetStore::open(options.store);
@@ -88,13 +57,9 @@ Result<Runtime> Runtime::start(const RuntimeOptions& options) {
   if (state->tracking) {
     if (Status started = state->tracking->start(); !started) return started.fault();
   }
-  int port = 0;
-  state->server = build_server(*address, state->service, port);
-  if (!state->server || port == 0) {
-    return Fault{"runtime.address-in-use", *address, "another program listens there, or this address can't be had",
-                 "stop the other runtime, or choose another --listen"};
-  }
-  state->address = address->substr(0, address->rfind(':') + 1) + std::to_string(port);
+  auto server = RigServer::start(options.listen, options.network, state->service);
+  if (!server) return server.fault();
+  state->server = std::move(*server);
   return Runtime(std::move(state));
 }
 
@@ -106,9 +71,22 @@ Runtime::~Runtime() {
   if (!state_) return;
   state_->rig.blackout();
   state_->service.stop();
-  if (state_->server) state_->server->Shutdown(std::chrono::system_clock::now() + std::chrono::milliseconds(200));
+  state_->server.reset();
 }
 
-const std::string& Runtime::address() const { return state_->address; }
+const std::string& Runtime::address() const { return state_->server->address(); }
+
+RuntimeFigures Runtime::figures() const {
+  RuntimeFigures figures = state_->service.figures();
+  figures.connections = state_->server->doorman().connections();
+  figures.turned_away = state_->server->doorman().turned_away();
+  return figures;
+}
+
+Status Runtime::operate(const DeskCommand& command, bool despite_lease) const {
+  return state_->service.operate(command, despite_lease);
+}
+
+bool Runtime::keeps_time() const { return monotonic_s() - state_->rig.last_beat_s() < most_silent_s; }
 
 }  // namespace focalstage

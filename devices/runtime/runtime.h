@@ -4,10 +4,15 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
 #include "devices/runtime/live_tracking.h"
+#include "devices/runtime/address.h"
+#include "devices/runtime/desk_command.h"
+#include "devices/runtime/figures.h"
 #include "devices/runtime/rig_thread.h"
+#include "io/rig_config/rig_config.h"
 
 namespace focalstage {
 
@@ -17,13 +22,15 @@ struct RuntimeOptions {
   RigThreadSettings rig;
   std::chrono::milliseconds lease{10'000};
   TrackerSetup tracker;
+  NetworkConfig network;
+  std::vector<ClientConfig> clients;  ///< who may do what, where the network has certificates
 };
 
 /// The rig daemon: a store of shows, a rig that plays them, and the service through which editors reach both.
 class Runtime {
  public:
-  /// "runtime.not-loopback", "runtime.address-in-use", "runtime.address", "store.in-use", "file.unwritable", and those
-  /// of the tracker.
+  /// "runtime.not-loopback", "runtime.address-in-use", "runtime.address", "store.in-use", "file.unwritable",
+  /// "credentials.*", and those of the tracker.
   static Result<Runtime> start(const RuntimeOptions& options);
 
   Runtime(Runtime&&) noexcept;
@@ -33,13 +40,19 @@ class Runtime {
   /// Where it listens, with the port it got.
   const std::string& address() const;
 
+  /// What it counts. Asks for the rig's lock, as every look at the state does.
+  RuntimeFigures figures() const;
+
+  /// What a control desk says: "rig.held" while an editor holds the rig, unless `despite_lease`; blackout always.
+  Status operate(const DeskCommand& command, bool despite_lease) const;
+
+  /// The thread that keeps the rig's time went round in the last two seconds. Waits for nothing.
+  bool keeps_time() const;
+
  private:
   struct State;
   explicit Runtime(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
-
-/// Host and port of an address that only this machine can reach; else a fault that says so.
-Result<std::string> loopback_address(const std::string& listen);
 
 }  // namespace focalstage

@@ -13,6 +13,7 @@ std::span<const Command> commands() {
       Command{"retina", "show what an eye sees of a show", declare_retina},
       Command{"push", "send a show to a rig", declare_push},
       Command{"rig", "ask a rig for its state, or play, hold, black out", declare_rig},
+      Command{"pair", "make or import the certificates by which a rig is reached", declare_pair},
       Command{"import", "say what a mesh or glTF file holds", declare_import},
       Command{"apply", "apply a file of edits to a project", declare_apply},
       Command{"solve", "find the sweep and the slices that a project needs", declare_solve},

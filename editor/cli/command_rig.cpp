@@ -36,6 +36,8 @@ Status act(RigClient& rig, const Options& options) {
   if (options.action == "blackout") return rig.blackout();
   if (options.action == "go") return rig.go();
   if (options.action == "cue") return rig.cue(options.cue);
+  if (options.action == "next") return rig.next();
+  if (options.action == "back") return rig.back();
   if (options.action == "watch") return watch(rig, options.seconds);
   return {};
 }
@@ -63,10 +65,11 @@ ExitStatus run(const Options& options) {
 
 Command::Run declare_rig(CLI::App& app) {
   const auto options = std::make_shared<Options>();
-  app.add_option("ACTION", options->action, "state, play, hold, blackout, go (lifts a blackout or fault), cue, watch")
+  app.add_option("ACTION", options->action,
+                 "state, play, hold, blackout, go (lifts a blackout or fault), cue, next, back, watch")
       ->required()
       ->type_name("")
-      ->check(CLI::IsMember({"state", "play", "hold", "blackout", "go", "cue", "watch"}).name(""));
+      ->check(CLI::IsMember({"state", "play", "hold", "blackout", "go", "cue", "next", "back", "watch"}).name(""));
   app.add_option("NAME", options->cue, "the cue to jump to")->type_name("");
   add_rig_option(app, options->rig);
   app.add_option("--sweeps", options->sweeps, "play: this many, then hold; on and on by default")->type_name("N");

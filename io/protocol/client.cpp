@@ -138,6 +138,10 @@ Status RigClient::cue(const std::string& name) {
   return command(*connection_, &v1::Rig::Stub::Cue, request);
 }
 
+Status RigClient::next() { return command(*connection_, &v1::Rig::Stub::Next, v1::NextRequest()); }
+
+Status RigClient::back() { return command(*connection_, &v1::Rig::Stub::Back, v1::BackRequest()); }
+
 Result<RigState> RigClient::state() {
   const auto reply = connection_->call(&v1::Rig::Stub::GetState, v1::GetStateRequest(), connection_->deadline());
   if (!reply) return reply.fault();

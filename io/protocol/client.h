@@ -24,8 +24,9 @@ class RigConnection;
 /// A runtime that goes away is told by every call, and by `watch` within a second of its own interval
 /// ("rig.unreachable"). Nothing has to be built anew for it: when the runtime is back, the next call reaches it.
 ///
-/// Faults: "rig.unreachable" (nobody answers in time), "rig.refused" (not in this state, not this show), "rig.differs"
-/// (the show is made for another rig), "rig.held" (another editor holds it), "rig.damaged" (names the chunk),
+/// Faults: "rig.unpaired", "rig.certificate" (docs/runtime.md), "rig.unauthorised" (this client may not),
+/// "rig.unreachable" (nobody answers in time), "rig.refused" (not in this state, not this show), "rig.differs" (the
+/// show is made for another rig), "rig.held" (another editor holds it), "rig.damaged" (names the chunk),
 /// "rig.disk-full"; "file.*" for the show to be pushed.
 class RigClient {
  public:
@@ -52,6 +53,8 @@ class RigClient {
   Status blackout();
   Status go();  ///< clears a latched fault or blackout
   Status cue(const std::string& name);
+  Status next();  ///< to the cue after the one that is on
+  Status back();
   Result<RigState> state();
 
   /// Calls `seen` with the state every `interval` until it returns false, `stop` is requested or the rig goes away.

@@ -1,9 +1,12 @@
 #include "io/protocol/connection.h"
 
 #include <unistd.h>
+#include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
+#include "io/credentials/diagnose.h"
 #include "io/protocol/limits.h"
 
 namespace focalstage {
@@ -14,6 +17,11 @@ std::string holder_name() {
   std::array<char, 256> host{};
   if (gethostname(host.data(), host.size() - 1) != 0) return "somebody";
   return std::string(host.data()) + ":" + std::to_string(getpid());
+}
+
+std::shared_ptr<grpc::ChannelCredentials> channel_credentials(const std::optional<Credentials>& pair) {
+  if (!pair) return grpc::InsecureChannelCredentials();
+  return grpc::SslCredentials({pair->authority, pair->key, pair->certificate});
 }
 
 grpc::ChannelArguments channel_arguments() {
@@ -36,11 +44,12 @@ RigConnection::RigConnection(std::string address, Milliseconds deadline, std::sh
 
 Result<std::shared_ptr<RigConnection>> RigConnection::open(const std::string& host_port, Milliseconds deadline) {
   silence_grpc();
+  const Result<std::optional<Credentials>> pair = find_pair(host_port);
+  if (!pair) return pair.fault();
   std::shared_ptr<grpc::Channel> channel =
-      grpc::CreateCustomChannel(host_port, grpc::InsecureChannelCredentials(), channel_arguments());
+      grpc::CreateCustomChannel(host_port, channel_credentials(*pair), channel_arguments());
   if (!channel->WaitForConnected(std::chrono::system_clock::now() + deadline)) {
-    return Fault{"rig.unreachable", host_port, "no rig answers there",
-                 "start focalstage-runtime, or give the HOST:PORT where it runs"};
+    return diagnose_connection(host_port, *pair, std::min(deadline, Milliseconds(1000)));
   }
   return std::shared_ptr<RigConnection>(new RigConnection(host_port, deadline, std::move(channel)));
 }

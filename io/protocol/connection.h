@@ -20,7 +20,9 @@ class RigConnection {
  public:
   using Milliseconds = std::chrono::milliseconds;
 
-  /// "rig.unreachable" where nobody answers within the deadline.
+  /// Over mutual TLS where this user was paired with the rig (io/credentials), else without. "rig.unreachable" where
+  /// nobody answers within the deadline; "rig.unpaired", "rig.certificate", "credentials.*" where the certificates are
+  /// why.
   static Result<std::shared_ptr<RigConnection>> open(const std::string& host_port, Milliseconds deadline);
   ~RigConnection();  ///< gives the rig back
 

@@ -126,13 +126,15 @@ SlotReport slot_from(const v1::SlotReport& message) {
 
 /// Which status of gRPC a code of ours travels as; tools that know nothing of us then still understand it.
 grpc::StatusCode status_code(std::string_view code) {
-  static constexpr std::array<std::pair<std::string_view, grpc::StatusCode>, 6> known{{
+  static constexpr std::array<std::pair<std::string_view, grpc::StatusCode>, 8> known{{
       {"rig.held", grpc::StatusCode::ABORTED},
       {"rig.lease", grpc::StatusCode::UNAUTHENTICATED},
       {"rig.damaged", grpc::StatusCode::DATA_LOSS},
       {"rig.disk-full", grpc::StatusCode::RESOURCE_EXHAUSTED},
       {"rig.request", grpc::StatusCode::INVALID_ARGUMENT},
       {"rig.cancelled", grpc::StatusCode::CANCELLED},
+      {"rig.unauthorised", grpc::StatusCode::PERMISSION_DENIED},
+      {"rig.busy", grpc::StatusCode::RESOURCE_EXHAUSTED},
   }};
   for (const auto& [name, status] : known) {
     if (name == code) return status;

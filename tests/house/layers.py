@@ -32,6 +32,7 @@ LIBRARY_OF = [
     (r"^openssl/", "OpenSSL::Crypto"),
     (r"^(hdf5|H5[A-Za-z]*)\.h$", "hdf5::hdf5"),
     (r"^cairo", "cairo::cairo"),
+    (r"^lo/", "liblo::liblo"),
     (r"^libdeflate\.h$", "deflate::deflate"),
     (r"^CLI/", "CLI11::CLI11"),
     (r"^boost/", "Boost::headers"),

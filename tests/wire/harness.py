@@ -85,7 +85,8 @@ def rig(store, *options):
                                     *options], stdout=log, stderr=subprocess.STDOUT)
     try:
         for _ in range(100):
-            if focalstage("rig", "state", "--to", address).status == DONE:
+            asked = focalstage("rig", "state", "--to", address)
+            if asked.status == DONE or "rig.unpaired" in asked.err:
                 break
             assert process.poll() is None, "the rig ended: " + (pathlib.Path(store) / "rig.log").read_text()
             time.sleep(0.1)

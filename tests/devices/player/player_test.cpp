@@ -102,6 +102,32 @@ TEST_CASE("a cue jumps to its frame; an unknown one is refused") {
   CHECK(stand.player.cue("curtain").fault().where == "cue \"curtain\"");
 }
 
+TEST_CASE("next and back go from cue to cue, wherever the show stands between them") {
+  ShowHeader header = sample::header(9);
+  header.cues = {{"bow", 6}, {"start", 2}, {"again", 6}, {"middle", 4}, {"beyond", 9}};
+  Stand stand;
+  CHECK(stand.player.next().fault().code == "rig.refused");
+  stand.player.activate(sample::loaded(header, std::make_unique<sample::CountedFrames>(4)));
+  const auto frame = [&] { return stand.player.frame(); };
+  CHECK_FALSE(stand.player.back());
+  REQUIRE(stand.player.next());
+  CHECK(frame() == 2);
+  CHECK(stand.player.back().fault().message.find("before") != std::string::npos);
+  CHECK(frame() == 2);
+  REQUIRE(stand.player.next());
+  REQUIRE(stand.player.next());
+  CHECK(frame() == 6);
+  CHECK(stand.player.next().fault().message.find("after") != std::string::npos);
+  CHECK(frame() == 6);
+  REQUIRE(stand.player.back());
+  CHECK(frame() == 4);
+  REQUIRE(stand.player.play());
+  stand.sweeps(3);  // two to settle; then frame 5 is next, which still follows the cue at 4
+  CHECK(frame() == 5);
+  REQUIRE(stand.player.back());
+  CHECK(frame() == 2);
+}
+
 TEST_CASE("a cue whose frame is not there yet is followed when it is; until then the show goes on") {
   class SlowBow : public sample::CountedFrames {
    public:

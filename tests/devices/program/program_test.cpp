@@ -58,6 +58,25 @@ TEST_CASE("what it cannot do it says in one line, with the exit status of its ki
   fails({"--listen", "nonsense", "--store", store}, 2, "nonsense");
   fails({"--rig", "real"}, 2, "--rig");
   fails({"--unknown"}, 2, "--unknown");
+  const std::string config = (folder.path() / "rig.json").string();
+  fails({"--config", config}, 3, config);
+  std::ofstream(config) << R"({"focalstage_rig": 1, "limits": {"current": 1}})";
+  fails({"--config", config}, 3, "/limits");
+}
+
+TEST_CASE("a configuration file is obeyed, and flags go before it") {
+  const sample::Folder folder;
+  const std::string config = (folder.path() / "rig.json").string();
+  std::ofstream(config) << R"({"focalstage_rig": 1, "rig": {"name": "gallery"}, "store": "kept",
+                               "limits": {"lens_current_max_a": 0.125}, "network": {"listen": "1.2.3.4:1"}})";
+  RuntimeProcess runtime({"--config", config, "--listen", "127.0.0.1:0"});
+  auto client = RigClient::connect(runtime.address(), milliseconds(5000));
+  REQUIRE(client);
+  const auto rig = client->describe();
+  REQUIRE(rig);
+  CHECK(rig->name == "gallery");
+  CHECK(rig->lens_current_max_a == 0.125);
+  CHECK(std::filesystem::is_directory(folder.path() / "kept" / "shows"));
 }
 
 std::string bytes_of(const std::filesystem::path& path) {

@@ -1,0 +1,81 @@
+#include "io/rig_config/check_config.h"
+
+#include <utility>
+
+namespace focalstage {
+
+namespace {
+
+Fault fault(std::string where, std::string message, std::string remedy) {
+  return {"rig.config", std::move(where), std::move(message), std::move(remedy)};
+}
+
+Status check_response(const std::vector<ResponsePoint>& points, const std::string& where) {
+  if (points.front().frequency_hz != 0.0) {
+    return fault(where + "/0/frequency_hz", "the first point is not at 0 Hz", "measure the lens at rest too");
+  }
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i].frequency_hz > points[i - 1].frequency_hz) continue;
+    return fault(where + "/" + std::to_string(i) + "/frequency_hz", "does not rise over the point before it",
+                 "sort the points by frequency, each frequency once");
+  }
+  return {};
+}
+
+Status check_measured(const MeasuredRig& measured) {
+  const std::string glasses = "/measured/glasses";
+  for (const Side eye : both_sides) {
+    const char* name = eye == Side::left ? "/left" : "/right";
+    if (Status sorted = check_response(measured.response[eye], glasses + "/lens_response" + name); !sorted) {
+      return sorted;
+    }
+  }
+  if (measured.glasses.lens_range_d[0] < measured.glasses.lens_range_d[1]) return {};
+  return fault(glasses + "/lens_max_d", "is not above lens_min_d", "give the lens's lowest and highest power");
+}
+
+Status check_devices(const RigConfig& config) {
+  const std::string wanted = "a rig made of devices has one";
+  if (!config.devices.projector) return fault("/devices/projector", "is missing: " + wanted, "name its driver");
+  if (!config.devices.lens_drive) return fault("/devices/lens_drive", "is missing: " + wanted, "name its driver");
+  if (!config.devices.trigger_board) return fault("/devices/trigger_board", "is missing: " + wanted, "name its driver");
+  if (config.measured) return {};
+  return fault("/measured", "is missing: shows are compiled for what was measured of the rig",
+               "measure projector and glasses and write down what was found");
+}
+
+Status check_network(const NetworkConfig& network) {
+  const int given = !network.certificate.empty() + !network.key.empty() + !network.client_ca.empty();
+  if (given == 0 || given == 3) return {};
+  return fault("/network", "certificate, key and client_ca come together or not at all",
+               "focalstage pair init DIR makes all three");
+}
+
+Status check_clients(const std::vector<ClientConfig>& clients) {
+  for (std::size_t i = 0; i < clients.size(); ++i) {
+    const std::string where = "/clients/" + std::to_string(i);
+    if (clients[i].name.empty() && clients[i].fingerprint.empty()) {
+      return fault(where, "says nothing that a client is known by", "give its name, its fingerprint, or both");
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (clients[k].name != clients[i].name || clients[k].fingerprint != clients[i].fingerprint) continue;
+      return fault(where, "is the client of /clients/" + std::to_string(k) + " again", "list each client once");
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Status check_config(const RigConfig& config) {
+  if (config.kind == RigKind::devices) {
+    if (Status devices = check_devices(config); !devices) return devices;
+  }
+  if (config.measured) {
+    if (Status measured = check_measured(*config.measured); !measured) return measured;
+  }
+  if (Status network = check_network(config.network); !network) return network;
+  return check_clients(config.clients);
+}
+
+}  // namespace focalstage
