@@ -31,8 +31,8 @@ struct DeviceRigSettings {
 double edge_near_s(const LensDrive& lens, double planned_s);
 
 /// Leads the devices through what was handed over: current first, then tables, then triggers, then pictures in time.
-/// Has no thread and no clock: `step` is told the time, every 2 ms or so. Once light may come, no step waits for a
-/// device.
+/// Has no thread and no clock: `step` is told the time, every millisecond or so. Once light may come, no step waits for
+/// a device.
 class Conductor {
  public:
   Conductor(const RigDevices& devices, const DeviceRigSettings& settings) : devices_(devices), settings_(settings) {}

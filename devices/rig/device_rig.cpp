@@ -9,7 +9,7 @@ namespace focalstage {
 
 namespace {
 
-constexpr std::chrono::milliseconds between_steps{2};
+constexpr std::chrono::milliseconds between_steps{1};
 
 Fault going_dark(const std::string& name) {
   return {"rig.device", name, "it is still being made dark", "say go again in a moment"};
@@ -78,6 +78,7 @@ std::optional<Fault> DeviceRig::doubt() const {
 std::vector<RigPart> DeviceRig::parts() const { return {projector_.part(), lens_.part(), board_.part()}; }
 
 void DeviceRig::lead(const std::stop_token& stop) {
+  prefer_this_thread();
   Conductor conductor(devices_, settings_);
   std::uint64_t darkness = 0;
   while (!stop.stop_requested()) {

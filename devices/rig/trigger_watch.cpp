@@ -1,6 +1,7 @@
 #include "devices/rig/trigger_watch.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace focalstage {
 
@@ -9,6 +10,9 @@ namespace {
 constexpr double longest_between_looks_s = 0.004;
 // Pauses within this share of the longest count as longest.
 constexpr double alike = 0.8;
+// From the longest of the others to these: so long a stand is none of the others', though counts come with jitter, and
+// a look every millisecond or so sees that much of it.
+constexpr double beyond_others = 0.4;
 }  // namespace
 
 TriggerWatch::TriggerWatch(const std::vector<TableTrigger>& triggers, double period_s) : per_period_(triggers.size()) {
@@ -18,15 +22,16 @@ TriggerWatch::TriggerWatch(const std::vector<TableTrigger>& triggers, double per
     pauses_s.push_back(next_s - triggers[i].at_s);
   }
   if (pauses_s.empty()) return;
-  const double least_s = alike * *std::ranges::max_element(pauses_s);
-  pause_s_ = 0.5 * least_s;
+  const double longest_s = *std::ranges::max_element(pauses_s);
+  double next_longest_s = 0.0;
   for (std::size_t i = 0; i < pauses_s.size(); ++i) {
-    if (pauses_s[i] >= least_s) {
+    if (pauses_s[i] >= alike * longest_s) {
       standing_.push_back((i + 1) % per_period_);
     } else {
-      pause_s_ = std::max(pause_s_, pauses_s[i]);
+      next_longest_s = std::max(next_longest_s, pauses_s[i]);
     }
   }
+  pause_s_ = std::lerp(next_longest_s, longest_s, beyond_others);
 }
 
 bool TriggerWatch::sample(double time_s, std::uint64_t exposures) {
@@ -39,14 +44,13 @@ bool TriggerWatch::sample(double time_s, std::uint64_t exposures) {
   }
   const bool begun = exposures > 0;
   if (per_period_ == 0 || !begun || time_s - since_s_ < pause_s_) return true;
-  const std::uint64_t stands = exposures % per_period_;
-  if (std::ranges::find(standing_, stands) != standing_.end()) {
+  const bool well = std::ranges::find(standing_, exposures % per_period_) != standing_.end();
+  const bool again = !well && wrong_ && *wrong_ != exposures;
+  if (well) {
     wrong_.reset();
-    return true;
+  } else if (!wrong_) {
+    wrong_ = exposures;
   }
-  const bool new_pause = !wrong_ || wrong_->exposures != exposures;
-  const bool again = wrong_ && new_pause && wrong_->stands == stands;
-  if (new_pause) wrong_ = Wrong{exposures, stands};
   return !again;
 }
 

@@ -16,8 +16,8 @@ class TriggerWatch {
   TriggerWatch() = default;
   TriggerWatch(const std::vector<TableTrigger>& triggers, double period_s);
 
-  /// The count as it stood at `time_s`, asked for every 2 ms or so. False: in two pauses on end it stood at the same
-  /// wrong place. Once is no proof: a count that is told late stands anywhere for a while.
+  /// The count as it stood at `time_s`, asked for every millisecond or so. False: in two pauses on end it stood at the
+  /// same wrong place. Once is no proof: a count that is told late stands anywhere for a while.
   bool sample(double time_s, std::uint64_t exposures);
 
  private:
@@ -27,11 +27,7 @@ class TriggerWatch {
   double since_s_ = 0.0;
   double last_s_ = -1e300;
   std::optional<std::uint64_t> count_;
-  struct Wrong {
-    std::uint64_t exposures = 0;
-    std::uint64_t stands = 0;
-  };
-  std::optional<Wrong> wrong_;  ///< since the last pause in which it stood well
+  std::optional<std::uint64_t> wrong_;  ///< where it stood wrong first, since the last pause in which it stood well
 };
 
 }  // namespace focalstage

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "core/schedule/sweep_shape.h"
+#include "devices/catalog/catalog.h"
+#include "devices/rig/device_rig.h"
 
 namespace focalstage {
 
@@ -54,8 +56,12 @@ RigDescription describe_measured(const RigConfig& config, const RigLimits& limit
 
 Result<RigSetup> rig_of(const RigConfig& config) {
   if (config.kind == RigKind::devices) {
-    return Fault{"rig.no-devices", "/rig/kind", "this program has no drivers for a rig made of devices",
-                 "set \"kind\" to \"sim\", or start with --rig sim"};
+    Result<RigDevices> devices = make_rig_devices(config.devices);
+    if (!devices) return devices.fault();
+    RigSetup setup;
+    setup.make = [made = std::move(*devices)] { return std::make_unique<DeviceRig>(made, DeviceRigSettings{}); };
+    setup.describe = [config](const RigLimits& limits, double hz) { return describe_measured(config, limits, hz); };
+    return setup;
   }
   RigSetup setup = simulated_rig();
   if (config.name.empty()) return setup;

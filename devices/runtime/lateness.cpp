@@ -2,9 +2,6 @@
 
 #include <limits>
 
-#include <pthread.h>
-#include <sched.h>
-
 namespace focalstage {
 
 Lateness::Lateness() {
@@ -20,11 +17,6 @@ void Lateness::add(double late_s) {
     ++bin.sweeps;
     return;
   }
-}
-
-void prefer_this_thread() {
-  const sched_param priority{sched_get_priority_min(SCHED_FIFO)};
-  (void)pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
 }
 
 }  // namespace focalstage

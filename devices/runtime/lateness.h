@@ -18,7 +18,4 @@ class Lateness {
   std::vector<LatenessBin> bins_;
 };
 
-/// Asks the system to run this thread before others; fine if it will not.
-void prefer_this_thread();
-
 }  // namespace focalstage

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/base/result.h"
-#include "devices/runtime/live_tracking.h"
 #include "devices/runtime/address.h"
 #include "devices/runtime/desk_command.h"
 #include "devices/runtime/figures.h"
+#include "devices/runtime/live_tracking.h"
 #include "devices/runtime/rig_thread.h"
 #include "io/rig_config/rig_config.h"
 

@@ -1,6 +1,3 @@
-#include <pthread.h>
-#include <sched.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -21,17 +18,11 @@ constexpr unsigned not_now = 7;  // the board's error
 
 double silent_at_s(const Dialogue& dialogue) { return dialogue.heard_s() + silence_s; }
 
-/// Where the system allows it: on a crowded machine half a second may pass before a thread of no rank gets its turn,
-/// and the board then goes dark.
-void go_before_others() {
-  const sched_param priority{sched_get_priority_min(SCHED_FIFO)};
-  (void)pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority);
-}
-
 }  // namespace
 
 void UnoBoard::run(Dialogue& dialogue) {
-  go_before_others();
+  // On a crowded machine half a second may pass before a thread of no rank gets its turn, and the board then goes dark.
+  prefer_this_thread();
   next_beat_s_ = 0.0;
   focalstage::Status going;
   while (going) {

@@ -41,7 +41,7 @@ struct Stand {
       while (handing && next_s < hands.now_s + 6 * period_s) hand();
       const Status stepped = conductor.step(hands.now_s);
       if (!stepped) fault = stepped.fault();
-      hands.run_until(hands.now_s + 0.002);
+      hands.run_until(hands.now_s + 0.001);
     }
   }
   void hand() {

@@ -1,0 +1,214 @@
+#include "tests/rig/emulator/optics.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+
+#include "devices/plugin/wire_framing.h"
+
+namespace focalstage::rig_emulator {
+
+namespace {
+
+constexpr int tick_ms = 5;
+
+template <class Body>
+Body body_of(const std::uint8_t* bytes) {
+  Body body;
+  std::memcpy(&body, bytes, sizeof body);
+  return body;
+}
+
+template <class Body>
+bool say(int connection, std::uint32_t type, const Body& body) {
+  const wire_header header{type, 0, sizeof body};
+  std::uint8_t message[sizeof header + sizeof body];
+  std::memcpy(message, &header, sizeof header);
+  std::memcpy(message + sizeof header, &body, sizeof body);
+  return ::send(connection, message, sizeof message, MSG_NOSIGNAL) == static_cast<ssize_t>(sizeof message);
+}
+
+}  // namespace
+
+Optics::Optics(const OpticsSettings& settings) : settings_(settings) {
+  plug_in();
+  thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
+}
+
+Optics::~Optics() {
+  thread_.request_stop();
+  unplug();
+}
+
+void Optics::plug_in() {
+  const std::lock_guard lock(mutex_);
+  if (plugged_in_) return;
+  ::unlink(settings_.socket.c_str());
+  listener_ = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::snprintf(address.sun_path, sizeof address.sun_path, "%s", settings_.socket.c_str());
+  if (::bind(listener_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0 || ::listen(listener_, 1) != 0) {
+    std::perror(settings_.socket.c_str());
+    std::abort();
+  }
+  plugged_in_ = true;
+}
+
+void Optics::unplug() {
+  const std::lock_guard lock(mutex_);
+  if (!plugged_in_) return;
+  plugged_in_ = false;
+  ::close(std::exchange(listener_, -1));
+  ::unlink(settings_.socket.c_str());
+  if (connection_ >= 0) ::shutdown(connection_, SHUT_RDWR);
+  forget();
+}
+
+bool Optics::plugged_in() const {
+  const std::lock_guard lock(mutex_);
+  return plugged_in_;
+}
+
+void Optics::forget() {
+  running_ = false;
+  waiting_.clear();
+}
+
+void Optics::serve(const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    int connection = -1;
+    {
+      const std::lock_guard lock(mutex_);
+      if (listener_ >= 0) connection = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC);
+      connection_ = connection;
+    }
+    if (connection < 0) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(tick_ms));
+      continue;
+    }
+    talk(connection, stop);
+    const std::lock_guard lock(mutex_);
+    forget();
+    connection_ = -1;
+    ::close(connection);
+  }
+}
+
+/// All of it, or false where the other end is gone or this one is to stop.
+bool Optics::read(int connection, std::uint8_t* bytes, std::size_t size, const std::stop_token& stop) {
+  while (size > 0) {
+    pollfd poll_for{connection, POLLIN, 0};
+    if (stop.stop_requested()) return false;
+    if (::poll(&poll_for, 1, tick_ms) == 0) continue;
+    const ssize_t got = ::recv(connection, bytes, size, 0);
+    if (got <= 0) return false;
+    bytes += got;
+    size -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+void Optics::talk(int connection, const std::stop_token& stop) {
+  std::vector<std::uint8_t> body;
+  wire_header header{};
+  while (read(connection, reinterpret_cast<std::uint8_t*>(&header), sizeof header, stop)) {
+    body.resize(header.bytes);
+    if (!read(connection, body.data(), body.size(), stop)) return;
+    take(connection, header.type, body.data(), body.size());
+  }
+}
+
+void Optics::take(int connection, std::uint32_t type, const std::uint8_t* bytes, std::size_t size) {
+  const std::lock_guard lock(mutex_);
+  switch (type) {
+    case WIRE_HELLO: {
+      wire_geometry geometry{};
+      geometry.version = WIRE_VERSION;
+      geometry.width_px = settings_.width_px;
+      geometry.height_px = settings_.height_px;
+      geometry.most_periods_ahead = settings_.most_periods_ahead;
+      geometry.latency_ns = static_cast<std::int64_t>(settings_.latency_s * 1e9 + 0.5);
+      std::snprintf(geometry.serial, sizeof geometry.serial, "WIRE-1");
+      say(connection, WIRE_GEOMETRY, geometry);
+      break;
+    }
+    case WIRE_CONFIGURE:
+      exposure_s_ = 1e-9 * static_cast<double>(body_of<wire_configure>(bytes).exposure_ns);
+      forget();
+      break;
+    case WIRE_START:
+      forget();
+      running_ = true;
+      run_ = body_of<wire_start>(bytes).run;
+      shown_ = missed_ = 0;
+      break;
+    case WIRE_FRAME: {
+      const auto frame = body_of<wire_frame>(bytes);
+      waiting_.push_back(frame.black != 0 ? WaitingPicture{true, 0}
+                                          : picture_of(frame.exposure, {bytes + sizeof frame, size - sizeof frame}));
+      break;
+    }
+    case WIRE_STOP:
+      forget();
+      break;
+    case WIRE_BLANK:
+      forget();
+      say(connection, WIRE_BLANKED, body_of<wire_blank>(bytes));
+      break;
+    default:
+      break;
+  }
+}
+
+/// Most pictures are those of the period before, and comparing is cheaper than summing up.
+WaitingPicture Optics::picture_of(std::uint32_t exposure, std::span<const std::uint8_t> pixels) {
+  Seen& seen = seen_[exposure];
+  if (seen.pixels.size() != pixels.size() || std::memcmp(seen.pixels.data(), pixels.data(), pixels.size()) != 0) {
+    seen.pixels.assign(pixels.begin(), pixels.end());
+    seen.picture.black = std::ranges::all_of(pixels, [](std::uint8_t code) { return code == 0; });
+    seen.picture.crc = static_cast<std::uint32_t>(::crc32(0, pixels.data(), static_cast<uInt>(pixels.size())));
+  }
+  return seen.picture;
+}
+
+void Optics::tell_counts(double device_s, double monotonic_s) {
+  if (connection_ < 0) return;
+  const auto ns = [](double seconds) { return static_cast<std::int64_t>(seconds * 1e9); };
+  say(connection_, WIRE_COUNTS, wire_counts{run_, shown_, missed_, ns(monotonic_s), ns(device_s)});
+}
+
+void Optics::advance_to(double device_s, double monotonic_s) {
+  const std::lock_guard lock(mutex_);
+  tell_counts(device_s, monotonic_s);
+}
+
+void Optics::lose_next_trigger() {
+  const std::lock_guard lock(mutex_);
+  lose_next_ = true;
+}
+
+std::optional<Begun> Optics::trigger(double device_s) {
+  const std::lock_guard lock(mutex_);
+  if (!plugged_in_ || !running_ || std::exchange(lose_next_, false)) return std::nullopt;
+  Begun begun{device_s + settings_.latency_s, exposure_s_, true, 0};
+  if (waiting_.empty()) {
+    ++missed_;
+  } else {
+    begun.dark = waiting_.front().black;
+    begun.crc = waiting_.front().crc;
+    waiting_.pop_front();
+    ++shown_;
+  }
+  return begun;
+}
+
+}  // namespace focalstage::rig_emulator
