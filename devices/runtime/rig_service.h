@@ -1,10 +1,13 @@
 #pragma once
 
 #include <atomic>
+#include <mutex>
+#include <utility>
 
 #include "devices/runtime/admission.h"
 #include "devices/runtime/asset_store.h"
 #include "devices/runtime/desk_command.h"
+#include "devices/runtime/device_drivers.h"
 #include "devices/runtime/figures.h"
 #include "devices/runtime/guard.h"
 #include "devices/runtime/lease.h"
@@ -21,7 +24,8 @@ namespace focalstage {
 class RigService final : public v1::Rig::Service {
  public:
   RigService(const RigThreadSettings& settings, ShowStore& store, AssetStore& assets, LiveFrames& frames,
-             RigThread& rig, LeaseDesk& desk, Guard& guard, double push_bytes_per_s, LiveTracking* tracking)
+             RigThread& rig, LeaseDesk& desk, Guard& guard, DeviceDrivers drivers, double push_bytes_per_s,
+             LiveTracking* tracking)
       : settings_(settings),
         store_(store),
         assets_(assets),
@@ -29,6 +33,7 @@ class RigService final : public v1::Rig::Service {
         rig_(rig),
         desk_(desk),
         guard_(guard),
+        drivers_(std::move(drivers)),
         push_pace_(push_bytes_per_s, push_bytes_per_s),
         tracking_(tracking) {}
 
@@ -55,6 +60,8 @@ class RigService final : public v1::Rig::Service {
   grpc::Status Back(grpc::ServerContext*, const v1::BackRequest*, v1::RigState*) override;
   grpc::Status Go(grpc::ServerContext*, const v1::GoRequest*, v1::RigState*) override;
   grpc::Status Blackout(grpc::ServerContext*, const v1::BlackoutRequest*, v1::RigState*) override;
+  grpc::Status ListDevices(grpc::ServerContext*, const v1::ListDevicesRequest*, v1::DeviceList*) override;
+  grpc::Status Identify(grpc::ServerContext*, const v1::IdentifyRequest*, v1::IdentifyReply*) override;
   grpc::Status GetState(grpc::ServerContext*, const v1::GetStateRequest*, v1::RigState*) override;
   grpc::Status Watch(grpc::ServerContext*, const v1::WatchRequest*, grpc::ServerWriter<v1::RigState>*) override;
   grpc::Status Live(grpc::ServerContext*, grpc::ServerReaderWriter<v1::LiveReply, v1::LiveRequest>*) override;
@@ -75,6 +82,8 @@ class RigService final : public v1::Rig::Service {
   RigThread& rig_;
   LeaseDesk& desk_;
   Guard& guard_;
+  DeviceDrivers drivers_;
+  std::mutex asking_drivers_;
   RateLimit push_pace_;
   LiveTracking* tracking_;  ///< null: no tracker
   std::atomic<bool> stopping_ = false;

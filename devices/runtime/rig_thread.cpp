@@ -264,6 +264,9 @@ RigState RigThread::state() const {
     state.lens_phase = sweeps - std::floor(sweeps);
   }
   for (const RigPart& part : rig_->parts()) {
+    state.parts.push_back({{part.id.driver, part.id.model, part.id.serial, part.id.address},
+                           name_of(part.state.phase),
+                           part.state.fault ? describe(*part.state.fault) : std::string()});
     for (const auto& [name, celsius] : part.state.temperatures) {
       state.temperatures.push_back({name, celsius});
       state.temperature_c = state.temperatures.size() == 1 ? celsius : std::max(state.temperature_c, celsius);

@@ -9,6 +9,7 @@
 #include "core/base/result.h"
 #include "devices/runtime/address.h"
 #include "devices/runtime/desk_command.h"
+#include "devices/runtime/device_drivers.h"
 #include "devices/runtime/figures.h"
 #include "devices/runtime/live_tracking.h"
 #include "devices/runtime/rig_thread.h"
@@ -23,6 +24,7 @@ struct RuntimeOptions {
   std::chrono::milliseconds lease{10'000};
   TrackerSetup tracker;
   NetworkConfig network;
+  DeviceDrivers drivers;              ///< whose devices it lists and identifies
   std::vector<ClientConfig> clients;  ///< who may do what, where the network has certificates
 };
 

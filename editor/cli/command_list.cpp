@@ -13,6 +13,7 @@ std::span<const Command> commands() {
       Command{"retina", "show what an eye sees of a show", declare_retina},
       Command{"push", "send a show to a rig", declare_push},
       Command{"rig", "ask a rig for its state, or play, hold, black out", declare_rig},
+      Command{"devices", "list what is plugged in where a rig is, or make one show itself", declare_devices},
       Command{"pair", "make or import the certificates by which a rig is reached", declare_pair},
       Command{"import", "say what a mesh or glTF file holds", declare_import},
       Command{"apply", "apply a file of edits to a project", declare_apply},

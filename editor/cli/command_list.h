@@ -12,6 +12,7 @@ Command::Run declare_export(CLI::App& app);
 Command::Run declare_retina(CLI::App& app);
 Command::Run declare_push(CLI::App& app);
 Command::Run declare_rig(CLI::App& app);
+Command::Run declare_devices(CLI::App& app);
 Command::Run declare_pair(CLI::App& app);
 Command::Run declare_import(CLI::App& app);
 Command::Run declare_apply(CLI::App& app);

@@ -72,6 +72,15 @@ void add_rig_option(CLI::App& app, std::string& host_port) {
   app.add_option("--to", host_port, "the rig's address")->type_name("HOST:PORT")->capture_default_str();
 }
 
+Value value_of(const DeviceReport& device) {
+  Value value;
+  value.set("driver", device.driver);
+  value.set("model", device.model);
+  value.set("serial", device.serial);
+  value.set("address", device.address);
+  return value;
+}
+
 Value value_of(const RigState& state) {
   Value value;
   value.set("state", state.state);
@@ -93,6 +102,14 @@ Value value_of(const RigState& state) {
     lateness.push_back(std::move(item));
   }
   value.set("lateness", std::move(lateness));
+  Value::Array parts;
+  for (const PartReport& part : state.parts) {
+    Value item = value_of(part.device);
+    item.set("phase", part.phase);
+    item.set("fault", part.fault);
+    parts.push_back(std::move(item));
+  }
+  value.set("parts", std::move(parts));
   Value::Array slots;
   for (const SlotReport& slot : state.slots) slots.push_back(value_of(slot));
   value.set("slots", std::move(slots));
@@ -114,6 +131,10 @@ std::string state_line(const RigState& state) {
 std::string state_text(const RigState& state) {
   std::string text = state_line(state);
   if (!state.fault.empty()) text += "latched: " + state.fault + " (focalstage rig go clears it)\n";
+  for (const PartReport& part : state.parts) {
+    const std::string which = part.device.serial.empty() ? "" : " " + part.device.serial;
+    text += part.device.driver + which + ": " + part.phase + (part.fault.empty() ? "" : ", " + part.fault) + "\n";
+  }
   if (state.slots.empty()) return text;
   std::vector<std::vector<std::string>> rows;
   for (const SlotReport& slot : state.slots) rows.push_back(row_of(slot));

@@ -148,6 +148,24 @@ Result<RigState> RigClient::state() {
   return state_from(*reply);
 }
 
+Result<DeviceListing> RigClient::devices() {
+  // Drivers look one after the other, and some wait for an answer.
+  const auto reply = connection_->call(&v1::Rig::Stub::ListDevices, v1::ListDevicesRequest(),
+                                       std::max(connection_->deadline(), milliseconds(30'000)));
+  if (!reply) return reply.fault();
+  return listing_from(*reply);
+}
+
+Status RigClient::identify(const std::string& driver, const std::string& serial) {
+  v1::IdentifyRequest request;
+  request.set_driver(driver);
+  request.set_serial(serial);
+  const auto reply =
+      connection_->holding(&v1::Rig::Stub::Identify, request, std::max(connection_->deadline(), milliseconds(10'000)));
+  if (!reply) return reply.fault();
+  return {};
+}
+
 Status RigClient::watch(milliseconds interval, const std::function<bool(const RigState&)>& seen, std::stop_token stop) {
   v1::WatchRequest request;
   request.set_interval_s(std::chrono::duration<double>(interval).count());

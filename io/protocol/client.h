@@ -57,6 +57,11 @@ class RigClient {
   Status back();
   Result<RigState> state();
 
+  /// What is plugged in where the rig is.
+  Result<DeviceListing> devices();
+  /// Makes a device show itself; an empty serial is the only one of that driver.
+  Status identify(const std::string& driver, const std::string& serial);
+
   /// Calls `seen` with the state every `interval` until it returns false, `stop` is requested or the rig goes away.
   /// `seen` must not wait.
   Status watch(std::chrono::milliseconds interval, const std::function<bool(const RigState&)>& seen,

@@ -84,6 +84,20 @@ Projector projector_from(const v1::Projector& message) {
   return projector;
 }
 
+v1::Device message_from(const DeviceReport& device) {
+  // Drivers hand on what devices say of themselves; a message that is no UTF-8 would never be read.
+  v1::Device message;
+  message.set_driver(valid_utf8(device.driver));
+  message.set_model(valid_utf8(device.model));
+  message.set_serial(valid_utf8(device.serial));
+  message.set_address(valid_utf8(device.address));
+  return message;
+}
+
+DeviceReport device_from(const v1::Device& message) {
+  return {message.driver(), message.model(), message.serial(), message.address()};
+}
+
 v1::SlotReport message_from(const SlotReport& slot) {
   v1::SlotReport message;
   message.set_slot(slot.slot);
@@ -193,6 +207,12 @@ v1::RigState message_from(const RigState& state) {
     out->set_celsius(temperature.celsius);
   }
   message.set_pose_to_light_ms(state.pose_to_light_ms);
+  for (const PartReport& part : state.parts) {
+    v1::Part* out = message.add_parts();
+    *out->mutable_device() = message_from(part.device);
+    out->set_phase(part.phase);
+    out->set_fault(valid_utf8(part.fault));
+  }
   return message;
 }
 
@@ -214,7 +234,30 @@ RigState state_from(const v1::RigState& message) {
   for (const v1::Temperature& part : message.temperatures())
     state.temperatures.push_back({part.part(), part.celsius()});
   state.pose_to_light_ms = message.pose_to_light_ms();
+  for (const v1::Part& part : message.parts()) {
+    state.parts.push_back({device_from(part.device()), part.phase(), part.fault()});
+  }
   return state;
+}
+
+v1::DeviceList message_from(const DeviceListing& listing) {
+  v1::DeviceList message;
+  for (const DeviceReport& device : listing.devices) *message.add_devices() = message_from(device);
+  for (const DriverFailure& failure : listing.failures) {
+    v1::DriverFailure* out = message.add_failures();
+    out->set_driver(failure.driver);
+    *out->mutable_fault() = message_from(failure.fault);
+  }
+  return message;
+}
+
+DeviceListing listing_from(const v1::DeviceList& message) {
+  DeviceListing listing;
+  for (const v1::Device& device : message.devices()) listing.devices.push_back(device_from(device));
+  for (const v1::DriverFailure& failure : message.failures()) {
+    listing.failures.push_back({failure.driver(), fault_from(failure.fault())});
+  }
+  return listing;
 }
 
 v1::Fault message_from(const Fault& fault) {

@@ -14,6 +14,9 @@ RigDescription description_from(const v1::RigDescription& message);
 v1::RigState message_from(const RigState& state);
 RigState state_from(const v1::RigState& message);
 
+v1::DeviceList message_from(const DeviceListing& listing);
+DeviceListing listing_from(const v1::DeviceList& message);
+
 v1::Fault message_from(const Fault& fault);
 Fault fault_from(const v1::Fault& message);
 

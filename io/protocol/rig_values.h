@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/result.h"
 #include "core/scene/project.h"
 
 namespace focalstage {
@@ -57,6 +58,40 @@ struct Temperature {
   bool operator==(const Temperature&) const = default;
 };
 
+/// A device that is plugged in.
+struct DeviceReport {
+  std::string driver;
+  std::string model;
+  std::string serial;   ///< empty where it has none
+  std::string address;  ///< where it is now
+
+  bool operator==(const DeviceReport&) const = default;
+};
+
+/// A driver that could not look.
+struct DriverFailure {
+  std::string driver;
+  Fault fault;
+
+  bool operator==(const DriverFailure&) const = default;
+};
+
+struct DeviceListing {
+  std::vector<DeviceReport> devices;
+  std::vector<DriverFailure> failures;
+
+  bool operator==(const DeviceListing&) const = default;
+};
+
+/// One device that a rig is made of.
+struct PartReport {
+  DeviceReport device;
+  std::string phase;  ///< "off", "ready", "running", "lost", "refused"
+  std::string fault;  ///< empty when none
+
+  bool operator==(const PartReport&) const = default;
+};
+
 struct RigState {
   std::string state;        ///< "empty", "ready", "playing", "holding", "dark"
   std::string show_sha256;  ///< empty where a live revision is there instead
@@ -73,6 +108,7 @@ struct RigState {
   std::uint64_t revision = 0;  ///< of the live link whose frame this is; 0: a show that was pushed
   std::vector<Temperature> temperatures;
   double pose_to_light_ms = 0.0;  ///< from light on the tracker's sensors to the sweep that shows it; 0: none tracked
+  std::vector<PartReport> parts;
 
   bool operator==(const RigState&) const = default;
 };

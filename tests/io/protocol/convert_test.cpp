@@ -52,6 +52,8 @@ RigState state() {
   state.revision = 1ull << 53;
   state.pose_to_light_ms = 118.5;
   state.temperatures = {{"left lens", 31.5}, {"projector", 44.0}};
+  state.parts = {{{"uno", "Arduino Uno", "A1", "/dev/ttyACM0"}, "lost", "unplugged"},
+                 {{"sim", "", "", ""}, "running", ""}};
   state.lateness = {{50.0, 10}, {std::numeric_limits<double>::infinity(), 2}};
   return state;
 }
