@@ -1,6 +1,5 @@
 #include "devices/catalog/catalog.h"
 
-#include <iterator>
 #include <utility>
 
 #include "devices/catalog/settings_reader.h"
@@ -86,6 +85,14 @@ Result<std::shared_ptr<TriggerBoard>> uno(const DeviceConfig& device) {
   return std::shared_ptr<TriggerBoard>(make_uno(settings));
 }
 
+/// Opened for that alone.
+Status shown(Device& device) {
+  Status done = device.open();
+  if (done) done = device.identify();
+  device.close();
+  return done;
+}
+
 }  // namespace
 
 Result<std::shared_ptr<ProjectorDevice>> make_projector(const DeviceConfig& device) {
@@ -117,11 +124,21 @@ Result<RigDevices> make_rig_devices(const DevicesConfig& devices) {
   return RigDevices{std::move(*projector), std::move(*lens), std::move(*board)};
 }
 
-std::vector<DeviceId> probe_devices() {
-  std::vector<DeviceId> found = probe_mcc1208();
-  std::vector<DeviceId> boards = probe_uno();
-  std::ranges::move(boards, std::back_inserter(found));
-  return found;
+DeviceDrivers device_drivers() {
+  DeviceDrivers drivers;
+  drivers["mcc1208"] = {[]() -> Result<std::vector<DeviceId>> { return probe_mcc1208(); },
+                        [](const std::string& serial) {
+                          Mcc1208Settings settings;
+                          settings.serial = serial;
+                          return shown(*make_mcc1208(settings));
+                        }};
+  drivers["uno"] = {[]() -> Result<std::vector<DeviceId>> { return probe_uno(); },
+                    [](const std::string& serial) {
+                      UnoSettings settings;
+                      settings.serial = serial;
+                      return shown(*make_uno(settings));
+                    }};
+  return drivers;
 }
 
 }  // namespace focalstage

@@ -83,6 +83,7 @@ Result<RuntimeOptions> runtime_options(const RigConfig& config) {
   options.rig.limits = limits_of(config);
   options.network = config.network;
   options.clients = config.clients;
+  options.drivers = device_drivers();
   return options;
 }
 

@@ -4,10 +4,10 @@
 #include <mutex>
 #include <utility>
 
+#include "devices/catalog/device_drivers.h"
 #include "devices/runtime/admission.h"
 #include "devices/runtime/asset_store.h"
 #include "devices/runtime/desk_command.h"
-#include "devices/runtime/device_drivers.h"
 #include "devices/runtime/figures.h"
 #include "devices/runtime/guard.h"
 #include "devices/runtime/lease.h"

@@ -28,8 +28,8 @@ struct Runtime::State {
                      ? std::make_unique<LiveTracking>(options.tracker, guessed_lead_s(options.rig),
                                                       [this](const Fault& fault) { rig.doubt_what_plays(fault); })
                      : nullptr),
-        service(options.rig, *store, *assets, frames, rig, desk, guard, options.drivers, options.network.push_bytes_per_s,
-                tracking.get()) {}
+        service(options.rig, *store, *assets, frames, rig, desk, guard, options.drivers,
+                options.network.push_bytes_per_s, tracking.get()) {}
 
   std::unique_ptr<ShowStore> store;  // holds the folder's lock
   std::unique_ptr<AssetStore> assets;

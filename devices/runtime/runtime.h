@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "devices/catalog/device_drivers.h"
 #include "devices/runtime/address.h"
 #include "devices/runtime/desk_command.h"
-#include "devices/runtime/device_drivers.h"
 #include "devices/runtime/figures.h"
 #include "devices/runtime/live_tracking.h"
 #include "devices/runtime/rig_thread.h"

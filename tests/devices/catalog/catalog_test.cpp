@@ -50,6 +50,16 @@ TEST_CASE("what cannot be is named by its place in the file") {
   CHECK(place_of(devices) == "/devices/trigger_board");
 }
 
+TEST_CASE("what is not plugged in cannot show itself, and says so") {
+  for (const auto& [name, driver] : device_drivers()) {
+    CAPTURE(name);
+    REQUIRE(driver.probe());
+    const Status shown = driver.identify("no such serial");
+    REQUIRE(!shown);
+    CHECK(!shown.fault().message.empty());
+  }
+}
+
 TEST_CASE("a plugin's own settings reach it as texts") {
   const DeviceConfig config = device("plugin", {{"library", "x"}, {"rate", 2840.0}, {"flip", false}});
   SettingsReader reader(config, "/devices/projector");

@@ -28,7 +28,7 @@ class StuckRig final : public Rig {
   int settle_sweeps() const override { return sim_.settle_sweeps(); }
   bool retimes_at_once() const override { return sim_.retimes_at_once(); }
   Status ready() override { return sim_.ready(); }
-  double next_edge_s(double edge_s, double period_s) const override { return sim_.next_edge_s(edge_s, period_s); }
+  double edge_near_s(double planned_s) const override { return planned_s; }
   void run_until(double time_s) override {
     while (*stuck_) std::this_thread::sleep_for(std::chrono::milliseconds(5));
     sim_.run_until(time_s);
