@@ -49,7 +49,7 @@ constexpr double most_silent_s = 2.0;
 }  // namespace
 
 Result<Runtime> Runtime::start(const RuntimeOptions& options) {
-  if (const Result<HostPort> address = host_port(options.listen); !address) return address.fault();
+  if (Status may = may_listen(options.listen, options.network); !may) return may.fault();
   Result<std::unique_ptr<ShowStore>> store = ShowStore::open(options.store);
   if (!store) return store.fault();
   Result<std::unique_ptr<AssetStore>> assets = AssetStore::open(options.store);

@@ -62,16 +62,19 @@ Result<std::optional<Credentials>> credentials_of(const NetworkConfig& network) 
 
 }  // namespace
 
-Result<std::unique_ptr<RigServer>> RigServer::start(const std::string& listen, const NetworkConfig& network,
-                                                    grpc::Service& service) {
+Status may_listen(const std::string& listen, const NetworkConfig& network) {
   const Result<HostPort> address = host_port(listen);
   if (!address) return address.fault();
+  if (!network.certificate.empty() || is_loopback(*address)) return {};
+  return Fault{"runtime.not-loopback", listen, "without certificates a rig is reached from its own machine only",
+               "listen on 127.0.0.1, or make certificates with focalstage pair"};
+}
+
+Result<std::unique_ptr<RigServer>> RigServer::start(const std::string& listen, const NetworkConfig& network,
+                                                    grpc::Service& service) {
+  if (Status may = may_listen(listen, network); !may) return may.fault();
   const auto ours = credentials_of(network);
   if (!ours) return ours.fault();
-  if (!*ours && !is_loopback(*address)) {
-    return Fault{"runtime.not-loopback", listen, "without certificates a rig is reached from its own machine only",
-                 "listen on 127.0.0.1, or make certificates with focalstage pair"};
-  }
   silence_grpc();
   grpc::EnableDefaultHealthCheckService(true);
   const bool reflects = network.reflection.value_or(!*ours);
@@ -83,7 +86,7 @@ Result<std::unique_ptr<RigServer>> RigServer::start(const std::string& listen, c
       builder.experimental().AddExternalConnectionAcceptor(
           grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD, server_credentials(*ours));
   builder.RegisterService(&service);
-  Result<BoundSocket> socket = bind_socket(*address, SOCK_STREAM);
+  Result<BoundSocket> socket = bind_socket(*host_port(listen), SOCK_STREAM);
   if (!socket) return socket.fault();
   std::unique_ptr<RigServer> made(new RigServer());
   made->server_ = builder.BuildAndStart();

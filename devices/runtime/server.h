@@ -17,6 +17,10 @@ class Service;
 
 namespace focalstage {
 
+/// "runtime.address" where that is none; "runtime.not-loopback" where it lies beyond loopback and there are no
+/// certificates.
+Status may_listen(const std::string& listen, const NetworkConfig& network);
+
 /// The gRPC server of a runtime, behind its doorman.
 class RigServer {
  public:
