@@ -66,11 +66,14 @@ TEST_CASE("a runtime's settings come from the file") {
   CHECK(rig.lens_current_max_a == 0.1);
 }
 
-TEST_CASE("a rig that this program cannot make is refused, and says how to do without") {
-  const auto options = runtime_options(measured());
+TEST_CASE("a rig whose device has no driver here is refused, with its place in the file") {
+  RigConfig config = measured();
+  config.devices.projector->driver = "magic-lantern";
+  const auto options = runtime_options(config);
   REQUIRE_FALSE(options);
-  CHECK(options.fault().code == "rig.no-devices");
-  CHECK(options.fault().remedy.find("--rig sim") != std::string::npos);
+  CHECK(options.fault().code == "rig.config");
+  CHECK(options.fault().where == "/devices/projector/driver");
+  CHECK(options.fault().message.find("magic-lantern") != std::string::npos);
 }
 
 }  // namespace
