@@ -69,6 +69,8 @@ TEST_CASE("a runtime's settings come from the file") {
 TEST_CASE("a rig whose device has no driver here is refused, with its place in the file") {
   RigConfig config = measured();
   config.devices.projector->driver = "magic-lantern";
+  config.devices.lens_drive = DeviceConfig{"mcc1208", "", "", {}};
+  config.devices.trigger_board = DeviceConfig{"uno", "", "", {}};
   const auto options = runtime_options(config);
   REQUIRE_FALSE(options);
   CHECK(options.fault().code == "rig.config");
