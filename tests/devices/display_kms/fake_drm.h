@@ -34,6 +34,7 @@ class FakeDrm final : public DrmCalls {
   int flip_error = 0;
   bool tells_monotonic = true;
   std::uint32_t crtc_of_other = 0;  ///< one that lights something else
+  int slowness = 1;                 ///< real time to the kernel's, for a test that works between two vblanks
 
   /// The beam returns: what was flipped is shown.
   void vblank(std::uint32_t count = 1) {
@@ -50,14 +51,14 @@ class FakeDrm final : public DrmCalls {
   bool flip_and_vblank(std::uint32_t count = 1) {
     {
       std::unique_lock lock(mutex_);
-      if (!changed_.wait_for(lock, std::chrono::seconds(2), [&] { return pending_ != 0; })) return false;
+      if (!changed_.wait_for(lock, std::chrono::seconds(20), [&] { return pending_ != 0; })) return false;
     }
     vblank(count);
     return true;
   }
   bool wait_for_flip() {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, std::chrono::seconds(2), [&] { return pending_ != 0; });
+    return changed_.wait_for(lock, std::chrono::seconds(20), [&] { return pending_ != 0; });
   }
 
   /// The pixels on the cable; empty: no signal.
@@ -228,7 +229,8 @@ class FakeDrm final : public DrmCalls {
   }
   std::optional<DrmFlip> wait_flip(int, int timeout_ms) override {
     std::unique_lock lock(mutex_);
-    if (!changed_.wait_for(lock, std::chrono::milliseconds(timeout_ms), [&] { return done_; })) return std::nullopt;
+    if (!changed_.wait_for(lock, std::chrono::milliseconds(timeout_ms) * slowness, [&] { return done_; }))
+      return std::nullopt;
     done_ = false;
     return DrmFlip{sequence_, time_s_};
   }

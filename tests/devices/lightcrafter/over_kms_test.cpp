@@ -30,6 +30,7 @@ drmModeModeInfo mode_of_the_board() {
 /// The kernel's output, whose cable ends in the board.
 struct Cable {
   explicit Cable(const LightCrafterSettings& settings) {
+    drm.slowness = 100;  // a frame takes the emulated board longer than the output waits for its vblank
     drm.connectors = {{40, true, edid_of("TXN", 0x4500, 1, "DLP4500", ""), {mode_of_the_board()}}};
     projector = make_lightcrafter(settings, make_kms_display({}, drm), [this](const std::string&, const std::string&) {
       return Result<std::unique_ptr<lightcrafter::Reports>>(

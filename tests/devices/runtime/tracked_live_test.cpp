@@ -119,7 +119,8 @@ TEST_CASE("a tracker that stops, or a body that is covered, is darkness that sta
     REQUIRE(stand.client->go());
     REQUIRE(stand.client->play());
     std::this_thread::sleep_for(milliseconds(150));
-    CHECK(stand.client->state()->state == "playing");
+    const auto after = stand.client->state();
+    CHECK_MESSAGE(after->state == "playing", after->fault);
   }
 }
 
