@@ -39,15 +39,15 @@ std::string depth_remedy(double exposure_us, std::size_t patterns) {
 }
 
 std::optional<Fault> check_numbers(const Exposures& exposures, double interval_s, const PlanRules& rules) {
-  const int bits = rules.shown_bits.value_or(exposures.bits);
+  const int bits = rules.shown_bits.value_or(exposures.form.bits);
   const auto in_depths = [](int value) { return value >= 1 && value <= 8; };
-  if (!in_depths(exposures.bits) || !in_depths(bits) || bits > exposures.bits) {
+  if (!in_depths(exposures.form.bits) || !in_depths(bits) || bits > exposures.form.bits) {
     return unable(
-        "pictures of " + std::to_string(exposures.bits) + " bits cannot be shown with " + std::to_string(bits),
+        "pictures of " + std::to_string(exposures.form.bits) + " bits cannot be shown with " + std::to_string(bits),
         "give 1..8 bits, shown with at most as many");
   }
-  if (exposures.channels != 1 && exposures.channels != 3) {
-    return unable("pictures of " + std::to_string(exposures.channels) + " channels", "send gray or rgb pictures");
+  if (exposures.form.channels != 1 && exposures.form.channels != 3) {
+    return unable("pictures of " + std::to_string(exposures.form.channels) + " channels", "send gray or rgb pictures");
   }
   const auto real = [](double value) { return std::isfinite(value) && std::abs(value) < 1.0; };
   const bool numbers = real(exposures.period_s) && real(exposures.exposure_s) && real(interval_s) &&
@@ -62,8 +62,8 @@ std::optional<Fault> check_numbers(const Exposures& exposures, double interval_s
 }
 
 std::optional<Fault> check_patterns(const Exposures& exposures, int bits) {
-  const std::size_t patterns = exposures.start_s.size() * static_cast<std::size_t>(exposures.channels);
-  const double each_us = exposures.exposure_s * 1e6 / exposures.channels;
+  const std::size_t patterns = exposures.start_s.size() * static_cast<std::size_t>(exposures.form.channels);
+  const double each_us = exposures.exposure_s * 1e6 / exposures.form.channels;
   if (patterns > static_cast<std::size_t>(most_patterns(bits))) {
     return unable(several(patterns, "pattern") + " of " + std::to_string(bits) + " bits need more planes than the " +
                       several(static_cast<std::size_t>(most_patterns(bits)), "pattern") + " of a video frame",
@@ -82,10 +82,11 @@ class Planner {
   Planner(const Exposures& exposures, double interval_s, const PlanRules& rules)
       : exposures_(exposures),
         rules_(rules),
-        bits_(rules.shown_bits.value_or(exposures.bits)),
+        bits_(rules.shown_bits.value_or(exposures.form.bits)),
         interval_us_(std::min(interval_s, exposures.period_s) * 1e6) {
-    plan_.pack = {width_px,           height_px,      static_cast<int>(exposures.start_s.size()),
-                  exposures.channels, exposures.bits, bits_};
+    plan_.pack = {
+        width_px, height_px, static_cast<int>(exposures.start_s.size()), exposures.form.channels, exposures.form.bits,
+        bits_};
   }
 
   Result<PatternPlan> make() {
@@ -111,17 +112,17 @@ class Planner {
   std::int64_t start_us(std::size_t i) const { return to_us(exposures_.start_s[i] - exposures_.start_s.front()); }
   std::int64_t end_us(std::size_t i, int channel) const {
     return to_us(exposures_.start_s[i] - exposures_.start_s.front() +
-                 exposures_.exposure_s * channel / exposures_.channels);
+                 exposures_.exposure_s * channel / exposures_.form.channels);
   }
 
   void add_exposure(std::size_t i) {
     std::int64_t from = start_us(i);
-    for (int channel = 0; channel < exposures_.channels; ++channel) {
+    for (int channel = 0; channel < exposures_.form.channels; ++channel) {
       LutEntry lut;
       lut.trigger = LutEntry::Trigger::none;
-      lut.pattern = static_cast<std::uint8_t>(static_cast<int>(i) * exposures_.channels + channel);
+      lut.pattern = static_cast<std::uint8_t>(static_cast<int>(i) * exposures_.form.channels + channel);
       lut.bits = static_cast<std::uint8_t>(bits_);
-      lut.leds = exposures_.channels == 3 ? static_cast<std::uint8_t>(1U << channel) : rules_.leds;
+      lut.leds = exposures_.form.channels == 3 ? static_cast<std::uint8_t>(1U << channel) : rules_.leds;
       const std::int64_t to = end_us(i, channel + 1);
       const auto length = static_cast<std::uint32_t>(to - from);
       plan_.entries.push_back({lut, std::max(length, least_exposure_us(bits_)), length});
@@ -133,7 +134,7 @@ class Planner {
   /// Darkness up to the next exposure, or none where the two touch.
   std::optional<Fault> end_exposure(std::size_t i) {
     const bool last = i + 1 == exposures_.start_s.size();
-    const std::int64_t gap = last ? 0 : start_us(i + 1) - end_us(i, exposures_.channels);
+    const std::int64_t gap = last ? 0 : start_us(i + 1) - end_us(i, exposures_.form.channels);
     PlanEntry& entry = plan_.entries.back();
     if (gap < -1) {
       return unable("exposures " + std::to_string(i) + " and " + std::to_string(i + 1) + " overlap by " +
@@ -184,7 +185,7 @@ class Planner {
 
 Result<PatternPlan> plan_patterns(const Exposures& exposures, double interval_s, const PlanRules& rules) {
   if (const auto fault = check_numbers(exposures, interval_s, rules)) return *fault;
-  if (const auto fault = check_patterns(exposures, rules.shown_bits.value_or(exposures.bits))) return *fault;
+  if (const auto fault = check_patterns(exposures, rules.shown_bits.value_or(exposures.form.bits))) return *fault;
   return Planner(exposures, interval_s, rules).make();
 }
 

@@ -23,13 +23,13 @@ void LimitedRig::refuse(const char* code, const char* where, std::string message
   fault_ = Fault{code, where, std::move(message), "change the show; the limit is the rig's own"};
 }
 
-void LimitedRig::set_exposure(double exposure_s) {
+void LimitedRig::set_exposure(double exposure_s, PictureForm form) {
   if (!std::isfinite(exposure_s) || exposure_s <= 0.0) {
     refuse("limit.light", "exposure", "the exposure is not a positive time");
   }
   if (fault_) return;
   exposure_s_ = exposure_s;
-  rig_.set_exposure(exposure_s);
+  rig_.set_exposure(exposure_s, form);
 }
 
 void LimitedRig::announce_triggers(std::span<const double> trigger_s) {

@@ -20,7 +20,7 @@ class LimitedRig : public RigPort {
  public:
   LimitedRig(RigPort& rig, const RigLimits& limits) : rig_(rig), limits_(limits) {}
 
-  void set_exposure(double exposure_s) override;
+  void set_exposure(double exposure_s, PictureForm form) override;
   void announce_triggers(std::span<const double> trigger_s) override;
   void set_drive(Side eye, std::span<const double> drive_a, double step_s) override;
   void post_images(std::vector<Picture> pictures) override;

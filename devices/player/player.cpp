@@ -183,7 +183,7 @@ bool Player::fetch(AskedSweep& sweep) {
 
 void Player::drive(const SweepPlan& plan, const AskedSweep& sweep) {
   if (std::exchange(drive_is_new_, false)) {
-    rig_.set_exposure(plan.exposure_s);
+    rig_.set_exposure(plan.exposure_s, plan.form);
     rig_.announce_triggers(plan.trigger_s);
     for (const Side eye : both_sides) rig_.set_drive(eye, plan.drive_a[eye], plan.drive_step_s);
   }

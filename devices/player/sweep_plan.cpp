@@ -62,15 +62,16 @@ bool SweepPlan::moves_as(const SweepPlan& other) const {
 }
 
 bool SweepPlan::fires_as(const SweepPlan& other) const {
-  return trigger_s == other.trigger_s && exposure_s == other.exposure_s;
+  return trigger_s == other.trigger_s && exposure_s == other.exposure_s && form == other.form;
 }
 
-Result<SweepPlan> sweep_plan(const ShowHeader& show) {
+Result<SweepPlan> sweep_plan(const ShowHeader& show, int bits) {
   if (Status sound = check_schedule(show); !sound) return sound.fault();
   const Schedule& schedule = show.schedule;
   SweepPlan plan;
   plan.period_s = schedule.period_s;
   plan.exposure_s = schedule.slots.empty() ? 1.0 / show.frames_per_second : schedule.slots[0].exposure_s;
+  plan.form = {show.channels, bits};
   plan.drive_a = schedule.lens_drive_a;
   plan.drive_step_s = schedule.period_s / static_cast<double>(schedule.lens_drive_a.left.size());
   for (const Slot& slot : schedule.slots) {

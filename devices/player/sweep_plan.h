@@ -20,6 +20,7 @@ struct ShutterCommand {
 struct SweepPlan {
   double period_s = 0.0;
   double exposure_s = 0.0;
+  PictureForm form;
   double drive_step_s = 0.0;
   PerEye<std::vector<double>> drive_a;
   std::vector<double> trigger_s;         ///< from the period's start, in time order
@@ -30,11 +31,12 @@ struct SweepPlan {
   /// The lens and the shutters go on as they are: nothing has to settle between the two.
   bool moves_as(const SweepPlan& other) const;
 
-  /// Exposures come at the same times and last as long.
+  /// Exposures come at the same times, last as long, and show pictures of the same form.
   bool fires_as(const SweepPlan& other) const;
 };
 
-/// Faults "show.schedule": a schedule that no rig could follow, with the place in the show.
-Result<SweepPlan> sweep_plan(const ShowHeader& show);
+/// `bits`: of the show's codes. Faults "show.schedule": a schedule that no rig could follow, with the place in the
+/// show.
+Result<SweepPlan> sweep_plan(const ShowHeader& show, int bits);
 
 }  // namespace focalstage

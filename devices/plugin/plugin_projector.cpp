@@ -107,8 +107,8 @@ std::int32_t configure(const Desk& desk, void* device, const Exposures& exposure
   for (const double s : exposures.start_s) starts.push_back(ns_of(s));
   const focalstage_exposures told{exposures.period_s * 1e9,
                                   ns_of(exposures.exposure_s),
-                                  static_cast<std::uint32_t>(exposures.channels),
-                                  static_cast<std::uint32_t>(exposures.bits),
+                                  static_cast<std::uint32_t>(exposures.form.channels),
+                                  static_cast<std::uint32_t>(exposures.form.bits),
                                   static_cast<std::uint32_t>(starts.size()),
                                   starts.data()};
   desk.table->stop(device_of(device));
@@ -163,7 +163,7 @@ class PluginProjector final : public ProjectorDevice {
   Status arm(const Exposures& exposures) override {
     if (desk_->books.run() != 0) (void)dark();
     if (exposures.start_s.empty() || !(exposures.period_s > 0.0) ||
-        (exposures.channels != 1 && exposures.channels != 3)) {
+        (exposures.form.channels != 1 && exposures.form.channels != 3)) {
       return Fault{"projector.unable", seat_.where(), "there is nothing to show", "give it exposures and a period"};
     }
     desk_->books.set_exposures(exposures);
@@ -194,7 +194,7 @@ class PluginProjector final : public ProjectorDevice {
     const Exposures exposures = desk_->books.exposures();
     const ProjectorAbilities able = abilities();
     const std::size_t bytes = static_cast<std::size_t>(able.width_px) * static_cast<std::size_t>(able.height_px) *
-                              static_cast<std::size_t>(exposures.channels);
+                              static_cast<std::size_t>(exposures.form.channels);
     const bool sized = std::ranges::all_of(pictures, [&](const Picture& p) { return p.codes.size() == bytes; });
     if (!sized || (!pictures.empty() && pictures.size() != exposures.start_s.size())) {
       return Fault{"projector.unable", seat_.where(), "these are not the pictures of one period", "arm it for them"};

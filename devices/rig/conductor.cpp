@@ -43,6 +43,7 @@ BoardTable board_table(const Score& score, const std::vector<TableTrigger>& trig
 Exposures exposures_of(const Score& score, const std::vector<TableTrigger>& triggers, double latency_s) {
   Exposures exposures;
   exposures.period_s = score.drive.period_s;
+  exposures.form = score.form;
   for (const TableTrigger& trigger : triggers) exposures.start_s.push_back(trigger.at_s + latency_s);
   exposures.exposure_s = score.exposure_s;
   return exposures;

@@ -24,7 +24,7 @@ class DeviceRig final : public Rig {
   DeviceRig(RigDevices devices, const DeviceRigSettings& settings);
   ~DeviceRig() override;
 
-  void set_exposure(double exposure_s) override { gatherer_.set_exposure(exposure_s); }
+  void set_exposure(double exposure_s, PictureForm form) override { gatherer_.set_exposure(exposure_s, form); }
   void announce_triggers(std::span<const double> trigger_s) override { gatherer_.announce_triggers(trigger_s); }
   void set_drive(Side eye, std::span<const double> drive_a, double step_s) override {
     gatherer_.set_drive(eye, drive_a, step_s);

@@ -16,7 +16,10 @@ void follow(double& time_s, double told_s) {
 
 }  // namespace
 
-void SweepGatherer::set_exposure(double exposure_s) { score_.exposure_s = exposure_s; }
+void SweepGatherer::set_exposure(double exposure_s, PictureForm form) {
+  score_.exposure_s = exposure_s;
+  score_.form = form;
+}
 
 void SweepGatherer::announce_triggers(std::span<const double> trigger_s) {
   score_.trigger_s.assign(trigger_s.begin(), trigger_s.end());

@@ -15,6 +15,7 @@ namespace focalstage {
 /// What the devices of a rig do in every sweep, apart from the pictures.
 struct Score {
   double exposure_s = 0.0;
+  PictureForm form;
   DrivePeriod drive;
   std::vector<double> trigger_s;  ///< from the sync edge, in time order; negative before it
   PerEye<std::optional<ShutterWindow>> shutter;
@@ -33,7 +34,7 @@ struct HandedSweep {
 /// changes.
 class SweepGatherer {
  public:
-  void set_exposure(double exposure_s);
+  void set_exposure(double exposure_s, PictureForm form);
   void announce_triggers(std::span<const double> trigger_s);
   void set_drive(Side eye, std::span<const double> drive_a, double step_s);
   void post_images(std::vector<Picture> pictures) { pictures_ = std::move(pictures); }

@@ -27,8 +27,7 @@ struct ProjectorAbilities {
 /// What it shows in every period.
 struct Exposures {
   double period_s = 0.0;
-  int channels = 1;  ///< of each picture: 1 gray, 3 RGB
-  int bits = 8;
+  PictureForm form;
   std::vector<double> start_s;  ///< of the light, from the period's start, in time order; one per picture
   double exposure_s = 0.0;      ///< of each
 

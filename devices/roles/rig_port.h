@@ -21,8 +21,8 @@ class RigPort {
   RigPort& operator=(const RigPort&) = delete;
   virtual ~RigPort() = default;
 
-  /// How long the projector shows an image after each trigger.
-  virtual void set_exposure(double exposure_s) = 0;
+  /// How long the projector shows an image after each trigger, and how the images are to be read.
+  virtual void set_exposure(double exposure_s, PictureForm form) = 0;
 
   /// When in a sweep its triggers will come, seconds from the sync edge and in time order, negative before it: for a
   /// rig that loads them beforehand. From the next sync edge on; a sweep then has all of these triggers or none.

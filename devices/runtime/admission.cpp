@@ -19,7 +19,7 @@ namespace {
 /// Takes everything and does nothing: a plan is held against the limits before any hardware sees it.
 class NoRig : public RigPort {
  public:
-  void set_exposure(double) override {}
+  void set_exposure(double, PictureForm) override {}
   void announce_triggers(std::span<const double>) override {}
   void set_drive(Side, std::span<const double>, double) override {}
   void post_images(std::vector<Picture>) override {}
@@ -77,7 +77,7 @@ std::string channel_difference(const ShowHeader& show, const RigDescription& rig
 Status within_limits(const SweepPlan& plan, const RigLimits& limits) {
   NoRig nothing;
   LimitedRig limited(nothing, limits);
-  limited.set_exposure(plan.exposure_s);
+  limited.set_exposure(plan.exposure_s, plan.form);
   for (const Side eye : both_sides) limited.set_drive(eye, plan.drive_a[eye], plan.drive_step_s);
   for (int sweep = 0; sweep < 4; ++sweep) {
     const double start_s = sweep * plan.period_s;
@@ -107,7 +107,8 @@ Result<SweepPlan> admit(const ShowHeader& show, const Project& project, const Sc
                         const std::vector<FrameMeasure>& measures, const RigTerms& rig) {
   if (Status sound = without_errors(project, schedule, measures); !sound) return sound.fault();
   if (Status fits = fits_rig(show, project, rig.describe(show.frequency_hz)); !fits) return fits.fault();
-  Result<SweepPlan> plan = sweep_plan(show);
+  Result<SweepPlan> plan =
+      sweep_plan(show, project.projectors.empty() ? PictureForm{}.bits : project.projectors[0].bits);
   if (!plan) return plan;
   if (Status safe = within_limits(*plan, rig.limits); !safe) return safe.fault();
   return plan;

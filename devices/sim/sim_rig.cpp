@@ -25,7 +25,7 @@ SimRig::SimRig(const SimSettings& settings, const SimFaults& faults)
   if (faults.drop_trigger) projector_.drop_trigger_after(*faults.drop_trigger);
 }
 
-void SimRig::set_exposure(double exposure_s) { next_edge_.exposure_s = exposure_s; }
+void SimRig::set_exposure(double exposure_s, PictureForm) { next_edge_.exposure_s = exposure_s; }
 
 void SimRig::set_drive(Side eye, std::span<const double> drive_a, double step_s) {
   next_edge_.drive[eye] = Drive{{drive_a.begin(), drive_a.end()}, step_s};

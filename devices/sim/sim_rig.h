@@ -36,7 +36,7 @@ class SimRig final : public Rig {
  public:
   explicit SimRig(const SimSettings& settings = {}, const SimFaults& faults = {});
 
-  void set_exposure(double exposure_s) override;
+  void set_exposure(double exposure_s, PictureForm) override;
   void announce_triggers(std::span<const double>) override {}  // it waits for each
   void set_drive(Side eye, std::span<const double> drive_a, double step_s) override;
   void post_images(std::vector<Picture> pictures) override;

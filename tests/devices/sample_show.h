@@ -63,7 +63,7 @@ inline std::shared_ptr<LoadedShow> loaded(ShowHeader header, std::unique_ptr<Fra
                                           std::string name = "a") {
   auto show = std::make_shared<LoadedShow>();
   show->sha256 = std::move(name);
-  show->plan = *sweep_plan(header);
+  show->plan = *sweep_plan(header, 8);
   show->frames = std::make_unique<FrameCache>(std::move(source), header.frames, 128);
   show->header = std::move(header);
   return show;

@@ -29,7 +29,7 @@ struct Bench {
   PatternPlan plan() const {
     Exposures exposures;
     exposures.period_s = 1.0 / 60.0;
-    exposures.bits = 4;
+    exposures.form.bits = 4;
     exposures.start_s = {0.001, 0.004, 0.009};
     exposures.exposure_s = 0.002;
     return *plan_patterns(exposures, 1.0 / 60.0);

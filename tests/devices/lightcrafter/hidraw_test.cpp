@@ -52,7 +52,7 @@ TEST_CASE("over hidapi: found, told, unplugged and found again on another node")
   CHECK(projector->id().serial == "LCR4-17");
   Exposures exposures;
   exposures.period_s = 1.0 / 60.0;
-  exposures.bits = 1;
+  exposures.form.bits = 1;
   for (int i = 0; i < 20; ++i) exposures.start_s.push_back(i * 0.0008);
   exposures.exposure_s = 0.0004;
   REQUIRE(projector->arm(exposures).ok());

@@ -52,7 +52,7 @@ std::vector<std::uint8_t> ramp(int seed, int bits) {
 Exposures three_of_four_bits() {
   Exposures exposures;
   exposures.period_s = 1.0 / 60.0;
-  exposures.bits = 4;
+  exposures.form.bits = 4;
   exposures.start_s = {0.0011, 0.0041, 0.0093};
   exposures.exposure_s = 0.0021;
   return exposures;
@@ -318,7 +318,7 @@ TEST_CASE("what it cannot do is refused") {
   REQUIRE(rig.projector->open().ok());
   CHECK(rig.projector->start().fault().code == "projector.idle");
   Exposures exposures = three_of_four_bits();
-  exposures.bits = 8;
+  exposures.form.bits = 8;
   CHECK(rig.projector->arm(exposures).fault().code == "projector.unable");
   const ProjectorAbilities abilities = rig.projector->abilities();
   CHECK(abilities.pacing == Pacing::master);

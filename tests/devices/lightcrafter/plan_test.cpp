@@ -15,8 +15,8 @@ constexpr double period_s = 1.0 / 60.0;
 Exposures exposures_of(std::vector<double> start_ms, double exposure_ms, int bits = 8, int channels = 1) {
   Exposures exposures;
   exposures.period_s = period_s;
-  exposures.channels = channels;
-  exposures.bits = bits;
+  exposures.form.channels = channels;
+  exposures.form.bits = bits;
   for (const double ms : start_ms) exposures.start_s.push_back(1e-3 * ms);
   exposures.exposure_s = 1e-3 * exposure_ms;
   return exposures;

@@ -41,7 +41,7 @@ TEST_CASE("the first fault is the one that stays") {
   RecordingRig rig;
   LimitedRig limited(rig, {});
   limited.set_drive(Side::left, std::vector{1.0}, 0.001);
-  limited.set_exposure(-1.0);
+  limited.set_exposure(-1.0, {});
   CHECK(limited.fault()->code == "limit.lens-current");
 }
 
@@ -73,7 +73,7 @@ TEST_CASE("light may be on for 80 % of a sweep") {
   // 0.8 / 60 s hold 26 exposures of 0.5 ms (13.0 of 13.3 ms); the 27th is too much.
   RecordingRig rig;
   LimitedRig limited(rig, {});
-  limited.set_exposure(0.0005);
+  limited.set_exposure(0.0005, {});
   limited.sync_edge(1.0);
   limited.sync_edge(1.0 + period_s);
   for (int n = 0; n < 26; ++n) limited.trigger(1.0 + period_s + 0.0005 * n);

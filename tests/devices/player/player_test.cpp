@@ -143,7 +143,7 @@ TEST_CASE("a cue whose frame is not there yet is followed when it is; until then
   const auto gate = std::make_shared<std::mutex>();
   ShowHeader header = sample::header(9);
   header.cues = {{"bow", 7}};
-  auto show = std::make_shared<LoadedShow>(LoadedShow{"a", header, *sweep_plan(header), nullptr});
+  auto show = std::make_shared<LoadedShow>(LoadedShow{"a", header, *sweep_plan(header, 8), nullptr});
   Stand stand(AtEnd::loop, false);
   {
     // Memory for three frames: the cue's frame is beyond what is read ahead.

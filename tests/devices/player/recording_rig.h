@@ -18,7 +18,10 @@ class RecordingRig : public RigPort {
     int shutter_commands = 0;
   };
 
-  void set_exposure(double exposure_s) override { exposure_s_ = exposure_s; }
+  void set_exposure(double exposure_s, PictureForm form) override {
+    exposure_s_ = exposure_s;
+    form_ = form;
+  }
   void announce_triggers(std::span<const double> trigger_s) override {
     announced_s.assign(trigger_s.begin(), trigger_s.end());
   }
@@ -39,6 +42,7 @@ class RecordingRig : public RigPort {
   std::vector<double> dark_s;
   std::vector<double> announced_s;
   double exposure_s_ = 0.0;
+  PictureForm form_;
 
  private:
   Sweep next_;

@@ -16,6 +16,7 @@ constexpr double period_s = Stagehands::period_s;
 std::shared_ptr<const Score> score(std::vector<double> trigger_s = {-0.001, 0.004, 0.012}) {
   Score score;
   score.exposure_s = 0.0005;
+  score.form = {3, 4};
   score.drive.period_s = period_s;
   for (const Side eye : both_sides) score.drive.drive_a[eye].assign(400, 0.01);
   score.trigger_s = std::move(trigger_s);
@@ -73,6 +74,8 @@ TEST_CASE("current first, then tables, then triggers, then each sweep's pictures
   stand.run(2.8);
   REQUIRE(!stand.fault);
   CHECK(stand.hands.lens_starts == 1);
+  REQUIRE(stand.hands.exposures.size() == 1);
+  CHECK(stand.hands.exposures[0].form == PictureForm{3, 4});
   REQUIRE(stand.hands.tables.size() == 1);
   REQUIRE(stand.hands.tables[0].trigger_s.size() == 3);
   CHECK(stand.hands.tables[0].trigger_s[2] == doctest::Approx(period_s - 0.001));

@@ -39,7 +39,7 @@ struct Stand {
     const std::vector<double> drive(400, 0.01);
     for (int sweep = 0; monotonic_s() < end_s && !rig->doubt(); ++sweep) {
       if (sweep == 0) {
-        rig->set_exposure(0.0005);
+        rig->set_exposure(0.0005, {});
         rig->announce_triggers(triggers);
         for (const Side eye : both_sides) rig->set_drive(eye, drive, period_s / 400);
       }

@@ -11,7 +11,7 @@ namespace {
 constexpr double period_s = 1.0 / 60.0;
 
 void hand(SweepGatherer& gatherer, double start_s, int code) {
-  gatherer.set_exposure(0.0005);
+  gatherer.set_exposure(0.0005, {3, 4});
   const std::vector<double> triggers{-0.001, 0.004, 0.012};
   gatherer.announce_triggers(triggers);
   const std::vector<double> drive(400, 0.01);
@@ -43,6 +43,7 @@ TEST_CASE("sweeps that move alike share one score, however large their times are
   REQUIRE(first->score->shutter.left);
   CHECK(first->score->shutter.left->close_s == doctest::Approx(0.008));
   CHECK(!first->score->shutter.right);
+  CHECK(first->score->form == PictureForm{3, 4});
   CHECK(first->score->drive.period_s == doctest::Approx(period_s));
 }
 

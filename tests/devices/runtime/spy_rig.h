@@ -38,7 +38,7 @@ class SpyRig final : public Rig {
   SpyRig(const SimSettings& settings, std::shared_ptr<LightLog> log)
       : inner_(settings), width_px_(static_cast<std::size_t>(settings.width_px)), log_(std::move(log)) {}
 
-  void set_exposure(double exposure_s) override { inner_.set_exposure(exposure_s); }
+  void set_exposure(double exposure_s, PictureForm form) override { inner_.set_exposure(exposure_s, form); }
   void announce_triggers(std::span<const double> trigger_s) override { inner_.announce_triggers(trigger_s); }
   void set_drive(Side eye, std::span<const double> drive_a, double step_s) override {
     inner_.set_drive(eye, drive_a, step_s);

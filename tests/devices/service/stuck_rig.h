@@ -15,7 +15,7 @@ class StuckRig final : public Rig {
  public:
   StuckRig(const SimSettings& settings, std::shared_ptr<std::atomic<bool>> stuck) : sim_(settings), stuck_(stuck) {}
 
-  void set_exposure(double exposure_s) override { sim_.set_exposure(exposure_s); }
+  void set_exposure(double exposure_s, PictureForm form) override { sim_.set_exposure(exposure_s, form); }
   void announce_triggers(std::span<const double> trigger_s) override { sim_.announce_triggers(trigger_s); }
   void set_drive(Side eye, std::span<const double> drive_a, double step_s) override {
     sim_.set_drive(eye, drive_a, step_s);

@@ -23,7 +23,7 @@ SimSettings plain_settings() {
 void hand_over(SimRig& rig, double start_s, std::uint8_t code) {
   const std::vector<double> drive_a(16, 0.05);
   for (const Side eye : both_sides) rig.set_drive(eye, drive_a, period_s / 16);
-  rig.set_exposure(0.0005);
+  rig.set_exposure(0.0005, {});
   rig.post_images({picture(code), picture(static_cast<std::uint8_t>(code + 1))});
   rig.sync_edge(start_s);
   rig.shutter(Side::left, ShutterLevel::open, start_s);
