@@ -231,7 +231,10 @@ struct Compiler::State {
     return out;
   }
 
-  bool optimal() const { return settings.slices.assignment == Assignment::optimal; }
+  /// The solver takes the raster of the pixels for a square lattice; on any other its slices stay linear.
+  bool optimal() const {
+    return settings.slices.assignment == Assignment::optimal && settings.projector.layout == PixelLayout::square;
+  }
 
   /// What changes against linear filtering. Eyes beside each other look past what is solid from other sides.
   void solve(Frame& work, const std::vector<ViewDrawable>& objects, const PerEye<Eye>& eyes, std::stop_token stop) {

@@ -45,12 +45,23 @@ glm::dvec2 undistorted(const std::vector<double>& c, const glm::dvec2& wanted) {
   return p;
 }
 
+/// By how much the row that holds `y` is shifted, in columns. Also for rows far outside the picture.
+double row_shift(const ProjectorModel& model, double y) {
+  if (model.layout == PixelLayout::square) return 0.0;
+  const double half = 0.5 * std::floor(y);
+  return half == std::floor(half) ? 0.0 : 0.5;
+}
+
 }  // namespace
 
 ProjectorModel projector_model(const Projector& projector) {
-  return {
-      projector.width_px,   projector.height_px, {projector.fx_px, projector.fy_px}, {projector.cx_px, projector.cy_px},
-      projector.distortion, projector.pose};
+  return {projector.width_px,
+          projector.height_px,
+          {projector.fx_px, projector.fy_px},
+          {projector.cx_px, projector.cy_px},
+          projector.distortion,
+          projector.pose,
+          projector.pixel_layout};
 }
 
 ProjectorModel resized(const ProjectorModel& model, int width_px, int height_px) {
@@ -61,19 +72,36 @@ ProjectorModel resized(const ProjectorModel& model, int width_px, int height_px)
   small.height_px = height_px;
   small.focal_px *= ratio;
   small.centre_px *= ratio;
+  small.layout = PixelLayout::square;
   return small;
 }
 
-glm::dvec2 tangent_of_pixel(const ProjectorModel& model, const glm::dvec2& pixel) {
-  glm::dvec2 image = (pixel - model.centre_px) / model.focal_px;
+glm::dvec2 place_of_pixel(const ProjectorModel& model, const glm::dvec2& pixel) {
+  return {pixel.x + row_shift(model, pixel.y), pixel.y};
+}
+
+glm::dvec2 pixel_of_place(const ProjectorModel& model, const glm::dvec2& place) {
+  return {place.x - row_shift(model, place.y), place.y};
+}
+
+glm::dvec2 tangent_of_place(const ProjectorModel& model, const glm::dvec2& place) {
+  glm::dvec2 image = (place - model.centre_px) / model.focal_px;
   if (!model.distortion.empty()) image = undistorted(model.distortion, image);
   return {image.x, -image.y};  // image rows run down, +Y is up
 }
 
-glm::dvec2 pixel_of_tangent(const ProjectorModel& model, const glm::dvec2& tangent) {
+glm::dvec2 place_of_tangent(const ProjectorModel& model, const glm::dvec2& tangent) {
   glm::dvec2 image{tangent.x, -tangent.y};
   if (!model.distortion.empty()) image = distorted(model.distortion, image);
   return image * model.focal_px + model.centre_px;
+}
+
+glm::dvec2 tangent_of_pixel(const ProjectorModel& model, const glm::dvec2& pixel) {
+  return tangent_of_place(model, place_of_pixel(model, pixel));
+}
+
+glm::dvec2 pixel_of_tangent(const ProjectorModel& model, const glm::dvec2& tangent) {
+  return pixel_of_place(model, place_of_tangent(model, tangent));
 }
 
 }  // namespace focalstage

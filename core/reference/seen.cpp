@@ -136,7 +136,8 @@ class RayEye {
     const glm::dvec3 seen_m = projector_from_world_.point(spot_m);
     if (!(seen_m.z < -nearest_m)) return std::nullopt;
     const glm::dvec2 tangent = glm::dvec2(seen_m) / -seen_m.z;
-    glm::dvec2 pixel = pixel_of_tangent(projector, tangent);
+    glm::dvec2 place = place_of_tangent(projector, tangent);
+    glm::dvec2 pixel = pixel_of_place(projector, place);
     const auto inside = [&] {
       return pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < projector.width_px && pixel.y < projector.height_px;
     };
@@ -146,7 +147,10 @@ class RayEye {
     if (folded || !room_.free(projector.world_from_projector.position_m, spot_m)) return std::nullopt;
     if (input_.projector_focus.depth_of_field_d > 0.0) {
       const double off_d = std::abs(1.0 / -seen_m.z - input_.projector_focus.focus_d);
-      pixel += in_disc(off_d / input_.projector_focus.depth_of_field_d, chance[7], chance[8]);
+      glm::dvec2 aside = in_disc(off_d / input_.projector_focus.depth_of_field_d, chance[7], chance[8]);
+      if (projector.layout == PixelLayout::diamond) aside.y *= 2.0;  // round in the room: rows lie half as far apart
+      place += aside;
+      pixel = pixel_of_place(projector, place);
       if (!inside()) return std::nullopt;
     }
     return pixel;

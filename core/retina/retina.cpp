@@ -10,6 +10,7 @@
 #include "core/retina/driven_focus.h"
 #include "core/retina/exposure_lights.h"
 #include "core/retina/focus.h"
+#include "core/retina/half_columns.h"
 #include "core/retina/lens_rim.h"
 #include "core/retina/pass_painter.h"
 #include "core/retina/passes.h"
@@ -67,6 +68,13 @@ RetinaImage image_of(const std::vector<float>& planes, const LookGrid& grid, int
     }
   }
   return image;
+}
+
+/// Calls `see` with an input whose pixels lie in squares.
+template <class See>
+auto on_squares(const RetinaInput& input, See see) {
+  if (input.projector.layout == PixelLayout::square) return see(input);
+  return see(HalfColumns(input).input());
 }
 
 }  // namespace
@@ -167,18 +175,23 @@ Retina& Retina::operator=(Retina&&) noexcept = default;
 
 Result<RetinaImage> Retina::view(const RetinaInput& input, const RetinaView& view, std::stop_token stop) {
   if (Status fits = check_retina(input, view); !fits) return fits.fault();
-  return state_->arena.execute([&] { return state_->view(input, view, stop); });
+  return state_->arena.execute(
+      [&] { return on_squares(input, [&](const RetinaInput& squares) { return state_->view(squares, view, stop); }); });
 }
 
 Result<DrivenFocus> Retina::driven_focus(const RetinaInput& input, const RetinaView& view, std::stop_token stop) {
   if (Status fits = check_retina(input, view); !fits) return fits.fault();
-  return state_->arena.execute([&] { return state_->driven_focus(input, view, stop); });
+  return state_->arena.execute([&] {
+    return on_squares(input, [&](const RetinaInput& squares) { return state_->driven_focus(squares, view, stop); });
+  });
 }
 
 Result<std::optional<RetinaSight>> Retina::look_at(const RetinaInput& input, const RetinaView& view,
                                                    const glm::dvec2& look, std::stop_token stop) {
   if (Status fits = check_retina(input, view); !fits) return fits.fault();
-  return state_->arena.execute([&] { return state_->look_at(input, view, look, stop); });
+  return state_->arena.execute([&] {
+    return on_squares(input, [&](const RetinaInput& squares) { return state_->look_at(squares, view, look, stop); });
+  });
 }
 
 }  // namespace focalstage

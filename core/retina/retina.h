@@ -32,7 +32,8 @@ struct RetinaExposure {
   bool own = true;                      ///< meant for this eye
 };
 
-/// The projector's own blur: a disc in its image, as wide as a pixel at either end of its depth of field.
+/// The projector's own blur: a disc in its image, as wide as a pixel (on a diamond lattice: as columns are apart) at
+/// either end of its depth of field.
 struct ProjectorFocus {
   double focus_d = 0.0;           ///< 1 / distance along its axis
   double depth_of_field_d = 0.0;  ///< the whole; 0: sharp everywhere

@@ -90,6 +90,13 @@ struct ColorModeWords {
 template <>
 struct Codec<ColorMode> : WordCodec<ColorMode, ColorModeWords> {};
 
+struct PixelLayoutWords {
+  static constexpr std::array<std::pair<std::string_view, PixelLayout>, 2> words{
+      {{"square", PixelLayout::square}, {"diamond", PixelLayout::diamond}}};
+};
+template <>
+struct Codec<PixelLayout> : WordCodec<PixelLayout, PixelLayoutWords> {};
+
 template <>
 struct Table<Projector> {
   static constexpr Rule offset_px{.low = -1e6, .high = 1e6};
@@ -98,6 +105,7 @@ struct Table<Projector> {
       field("model", at(&Projector::model), Presence::always, a_name),
       field("width_px", at(&Projector::width_px), Presence::always, {.low = 1, .high = 8192}),
       field("height_px", at(&Projector::height_px), Presence::always, {.low = 1, .high = 8192}),
+      field("pixel_layout", at(&Projector::pixel_layout), Presence::optional),
       field("frames_per_second", at(&Projector::frames_per_second), Presence::always, frequency_hz),
       field("bits", at(&Projector::bits), Presence::always, {.low = 1, .high = 8}),
       field("color", at(&Projector::color), Presence::always),

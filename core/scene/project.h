@@ -99,11 +99,16 @@ struct Sweep {
 
 enum class ColorMode { gray, rgb };
 
+/// How a projector's pixels lie. Diamond, as mirrors that stand on a corner do: every odd row (the first is row 0) lies
+/// half a pixel further to the right, and rows are half as far apart as columns.
+enum class PixelLayout { square, diamond };
+
 struct Projector {
   std::string name;
   std::string model = "dynaflash";
   int width_px = 1024;
   int height_px = 768;
+  PixelLayout pixel_layout = PixelLayout::square;
   double frames_per_second = 2000.0;
   int bits = 8;
   ColorMode color = ColorMode::gray;

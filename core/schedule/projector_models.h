@@ -16,8 +16,6 @@ enum class ClockMaster {
   video,  ///< the video signal's frames, which pack several images; the rig follows them
 };
 
-enum class PixelLayout { square, diamond };
-
 /// How fast a model shows gray images of some depth.
 struct DepthRate {
   int bits = 8;

@@ -105,6 +105,7 @@ PinnedPicture pinned_picture(const Stage& stage, const ProjectorModel& projector
                              const glm::dmat4& world_from_mesh, Picker& picker) {
   const Rigid projector_from_world = projector.world_from_projector.inverse();
   const glm::dvec2 size_px(projector.width_px, projector.height_px);
+  const double mean_shift = projector.layout == PixelLayout::diamond ? 0.25 : 0.0;  // of a row, in columns
   const bool with_shadows = mesh.positions_m.size() <= most_rays;
   PinnedPicture pinned;
   pinned.uv.reserve(mesh.positions_m.size());
@@ -117,7 +118,10 @@ PinnedPicture pinned_picture(const Stage& stage, const ProjectorModel& projector
       pinned.reached.push_back(0);
       continue;
     }
-    const glm::dvec2 share = pixel_of_tangent(projector, glm::dvec2(p.x, p.y) / -p.z) / size_px;
+    // By place, not by pixel: what is pinned is the raw lattice, and a uv that jumped from row to row would tear it. On
+    // a diamond lattice the picture is so a quarter of a pixel off at most, were rows seen apart.
+    const glm::dvec2 place = place_of_tangent(projector, glm::dvec2(p.x, p.y) / -p.z);
+    const glm::dvec2 share = glm::dvec2(place.x - mean_shift, place.y) / size_px;
     pinned.uv.emplace_back(share.x, 1.0 - share.y);
     const double distance_m = glm::length(p);
     const bool inside = glm::length(share - 0.5) < just_outside;

@@ -124,6 +124,36 @@ const std::vector<Mutant>& mutants() {
   return all;
 }
 
+/// Two of the scenes from a projector whose mirrors stand on their corners: rows are half as far apart.
+std::vector<EdgeScene> diamond_scenes() {
+  std::vector<EdgeScene> all = edge_scenes();
+  all.erase(all.begin() + 1, all.end() - 1);
+  for (EdgeScene& scene : all) {
+    scene.name += ", from diamonds";
+    ProjectorModel& projector = scene.settings.projector;
+    projector.layout = PixelLayout::diamond;
+    projector.height_px *= 2;
+    projector.focal_px.y *= 2.0;
+    projector.centre_px.y *= 2.0;
+  }
+  return all;
+}
+
+/// As if even rows were the shifted ones: of a picture one row higher, all rows but the first.
+FrameImages compiled_with_even_rows_shifted(const Stage& stage, CompileSettings settings) {
+  settings.projector.height_px += 1;
+  settings.projector.centre_px.y += 1.0;
+  FrameImages higher = compiled(stage, settings);
+  FrameImages images = higher;
+  images.height_px -= 1;
+  images.codes.clear();
+  for (std::size_t i = 0; i < settings.images.size(); ++i) {
+    const auto codes = higher.image(i);
+    images.codes.insert(images.codes.end(), codes.begin() + higher.width_px, codes.end());
+  }
+  return images;
+}
+
 }  // namespace
 
 TEST_CASE("every edge lies where light through a thin lens puts it") {
@@ -163,5 +193,37 @@ TEST_CASE("the check notices each mistake in every scene") {
       INFO(scene.name << ", " << mutant.name << ": " << report.contradicted << " contradictions");
       CHECK(report.contradicted >= 100);
     }
+  }
+}
+
+TEST_CASE("from a diamond lattice edges lie where the light of its true mirrors puts them") {
+  for (const EdgeScene& scene : diamond_scenes()) {
+    INFO(scene.name);
+    const forward::Room room = room_of(scene.stage, scene.settings);
+    const forward::EdgeReport report = checked(room, compiled(scene.stage, scene.settings), scene.settings.images);
+    MESSAGE(scene.name << ": " << report.edges << " edges, worst " << report.worst_px << " px, mean "
+                       << report.mean_px() << " px off");
+    CHECK(report.edges > 5000);
+    CHECK(report.contradicted == 0);
+    CHECK(report.worst_px <= tolerance_px);
+    CHECK(report.mean_px() < 1e-3);
+
+    const auto reference = compile_reference(scene.stage, scene.settings);
+    REQUIRE(reference);
+    CHECK(checked(room, reference->images, scene.settings.images).contradicted == 0);
+  }
+}
+
+TEST_CASE("the check notices a lattice that is taken for another") {
+  for (const EdgeScene& scene : diamond_scenes()) {
+    INFO(scene.name);
+    const forward::Room room = room_of(scene.stage, scene.settings);
+    const FrameImages even = compiled_with_even_rows_shifted(scene.stage, scene.settings);
+    CHECK(checked(room, even, scene.settings.images, 100).contradicted >= 100);
+    CompileSettings square = scene.settings;
+    square.projector.layout = PixelLayout::square;
+    CHECK(checked(room, compiled(scene.stage, square), scene.settings.images, 100).contradicted >= 100);
+    square.projector.centre_px.x -= 0.25;  // right on average, wrong in every row
+    CHECK(checked(room, compiled(scene.stage, square), scene.settings.images, 100).contradicted >= 100);
   }
 }

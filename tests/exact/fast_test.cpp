@@ -93,6 +93,22 @@ TEST_CASE("random scenes: the engine shows what the reference shows") {
   CHECK(all.off * 1'000'000 <= all.bytes);
 }
 
+TEST_CASE("random scenes from a diamond lattice, too") {
+  const std::uint64_t first = first_seed();
+  MESSAGE("FOCALSTAGE_SEED=" << first);
+  Difference all;
+  for (std::uint64_t i = 0; i < scenes_per_run / 4; ++i) {
+    RandomScene scene = random_scene(first + i);
+    scene.settings.projector.layout = PixelLayout::diamond;
+    INFO(scene.story);
+    const Difference here = compared(scene);
+    all += here;
+    CHECK(here.off <= 3 + here.bytes / 100'000);
+  }
+  MESSAGE(all.off << " of " << all.bytes << " bytes are off by more than one code");
+  CHECK(all.off * 1'000'000 <= all.bytes + 1'000'000 * 3);
+}
+
 TEST_CASE("seeds that once failed") {
   for (const std::uint64_t seed : kept_seeds()) {
     const RandomScene scene = random_scene(seed);

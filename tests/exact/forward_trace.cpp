@@ -114,10 +114,10 @@ bool alike(double code, double expected) { return std::abs(code - expected) <= 1
 
 }  // namespace
 
-Arrival trace(const Room& room, int eye_index, std::size_t slice, const glm::dvec2& pixel) {
+Arrival trace(const Room& room, int eye_index, std::size_t slice, const glm::dvec2& place) {
   const EyeFrame eye(room, eye_index);
   Arrival arrival;
-  const glm::dvec2 image = straightened(room.distortion, (pixel - room.centre_px) / room.focal_px);
+  const glm::dvec2 image = straightened(room.distortion, (place - room.centre_px) / room.focal_px);
   const glm::dvec3 projector_m = point(room.world_from_projector, glm::dvec3(0.0));
   const glm::dvec3 out = axis(room.world_from_projector, 0) * image.x - axis(room.world_from_projector, 1) * image.y -
                          axis(room.world_from_projector, 2);
@@ -154,7 +154,8 @@ EdgeReport check_edges(const Room& room, const Picture& picture, double toleranc
     const double code = picture.codes[i];
     ++report.pixels;
     if (x + 1 < width && !alike(code, picture.codes[i + 1])) ++report.edges;
-    const glm::dvec2 centre{static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5};
+    const double aside = room.diamond && y % 2 == 1 ? 0.5 : 0.0;
+    const glm::dvec2 centre{static_cast<double>(x) + 0.5 + aside, static_cast<double>(y) + 0.5};
     if (alike(code, trace(room, picture.eye, picture.slice, centre).code)) continue;
     double found_px = 0.0;
     for (const double share_of_tolerance : {0.02, 0.1, 0.3, 1.0}) {

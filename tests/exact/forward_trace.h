@@ -30,6 +30,7 @@ struct Painted {
 struct Room {
   int width_px = 0;
   int height_px = 0;
+  bool diamond = false;  ///< the mirrors of every other row, the second being the first such, stand half a step aside
   glm::dvec2 focal_px{1.0};
   glm::dvec2 centre_px{0.0};
   std::vector<double> distortion;  ///< OpenCV's
@@ -61,7 +62,8 @@ struct Arrival {
   double code = 0.0;         ///< what the projector ought to show there, not rounded
 };
 
-Arrival trace(const Room& room, int eye, std::size_t slice, const glm::dvec2& pixel);
+/// `place`: in steps from column to column and from row to row, whichever way the mirrors stand.
+Arrival trace(const Room& room, int eye, std::size_t slice, const glm::dvec2& place);
 
 /// How well the edges of a picture lie where the light says. A pixel contradicts the trace when nothing within
 /// `tolerance_px` of its centre would look like it.

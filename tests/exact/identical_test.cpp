@@ -23,6 +23,29 @@ TEST_CASE("threads, instruction sets and repetition do not change a byte") {
   }
 }
 
+TEST_CASE("on a diamond lattice neither, whose optimal slices are the linear ones") {
+  int changed = 0;
+  for (std::uint64_t seed = 560; seed < 580; ++seed) {
+    RandomScene scene = random_scene(seed);
+    INFO(scene.story);
+    const auto first_frame = [&](int threads, VectorPath path) {
+      const auto frame = Compiler(scene.settings, threads, path).frame(scene.frames[0]);
+      REQUIRE(frame);
+      return frame->images.codes;
+    };
+    scene.settings.slices.assignment = Assignment::linear;
+    const auto square = first_frame(2, VectorPath::best);
+    scene.settings.projector.layout = PixelLayout::diamond;
+    const auto diamond = first_frame(1, VectorPath::best);
+    changed += diamond != square ? 1 : 0;
+    CHECK(first_frame(2, VectorPath::best) == diamond);
+    CHECK(first_frame(2, VectorPath::portable) == diamond);
+    scene.settings.slices.assignment = Assignment::optimal;
+    CHECK(first_frame(2, VectorPath::best) == diamond);
+  }
+  CHECK(changed >= 18);  // in a dark room nothing shows
+}
+
 TEST_CASE("with the optimal assignment too, which is never worse than linear and changes little") {
   int solved = 0;
   for (std::uint64_t seed = 700; seed < 720; ++seed) {

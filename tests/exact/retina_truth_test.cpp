@@ -138,6 +138,47 @@ TEST_CASE(
   CHECK(apart(rim, plain).sum < -0.2);
 }
 
+TEST_CASE("the light of a diamond lattice, sharp and out of focus") {
+  const Opened sample = opened(FOCALSTAGE_SOURCE_DIR "/projects/slanted-checker");
+  Shown shown;
+  shown.stage = staged(sample.project, sample.loaded.assets, 0);
+  shown.settings = compile_settings(sample.project);
+  ProjectorModel& projector = shown.settings.projector;
+  projector.layout = PixelLayout::diamond;
+  projector.width_px /= 2;  // mirrors twice as wide as the sample's, and rows as high
+  projector.focal_px.x /= 2.0;
+  projector.centre_px.x /= 2.0;
+  auto compiled = Compiler(shown.settings).frame(shown.stage);
+  REQUIRE(compiled);
+  shown.frame = *std::move(compiled);
+  shown.schedule = make_schedule(sample.project, shown.settings.images).schedule;
+  shown.glasses = worn_glasses(sample.project.glasses);
+  RetinaInput input = shown.input(Side::left);
+  RetinaView view;
+  view.width_px = 200;
+  view.height_px = 150;
+  view.fov_deg = 12.0;
+  view.focus_d = 1.5;
+  for (const double depth_of_field_d : {0.0, 0.24}) {
+    input.projector_focus = {1.0 / 1.6, depth_of_field_d};
+    const auto exact = see_by_rays(input, view, {160});
+    const auto fast = Retina().view(input, view);
+    RetinaInput mistaken = input;
+    mistaken.projector.layout = PixelLayout::square;
+    const auto square = Retina().view(mistaken, view);
+    REQUIRE(exact);
+    REQUIRE(fast);
+    REQUIRE(square);
+    const Apart off = apart(*fast, *exact);
+    MESSAGE("depth of field " << depth_of_field_d << " D: RMS " << 100.0 * off.rms << " % of the peak, light off by "
+                              << 100.0 * off.sum << " %; taken for a square lattice "
+                              << 100.0 * apart(*square, *exact).rms << " %");
+    CHECK(off.rms <= 0.02);
+    CHECK(std::abs(off.sum) <= 0.004);
+    CHECK(apart(*square, *exact).rms > 2.0 * off.rms);
+  }
+}
+
 TEST_CASE("off the axis the powers that pass in one exposure are told apart") {
   const Shown shown = shown_frame(opened(FOCALSTAGE_SOURCE_DIR "/projects/slanted-checker"), 0);
   RetinaInput input = shown.input(Side::left);

@@ -36,6 +36,7 @@ forward::Room room_of(const Stage& stage, const CompileSettings& settings) {
   forward::Room room;
   room.width_px = settings.projector.width_px;
   room.height_px = settings.projector.height_px;
+  room.diamond = settings.projector.layout == PixelLayout::diamond;
   room.focal_px = settings.projector.focal_px;
   room.centre_px = settings.projector.centre_px;
   room.distortion = settings.projector.distortion;

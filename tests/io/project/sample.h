@@ -25,7 +25,7 @@ inline constexpr const char* full_sample = R"({
   "sweep": { "frequency_hz": 60, "min_power_d": -1.5, "max_power_d": 1.5,
              "waveform": { "left": { "power_d": [-1, 0, 1, 2, 3, 2, 1, 0], "drive_a": [0, 1, 2, 3, 4, 5, 6, 7] },
                            "right": { "power_d": [-2, 0, 1, 2, 3, 2, 1, 0], "drive_a": [0, 1, 2, 3, 4, 5, 6, 8] } } },
-  "projectors": [ { "name": "main", "model": "dynaflash", "width_px": 1024, "height_px": 768,
+  "projectors": [ { "name": "main", "model": "dynaflash", "width_px": 1024, "height_px": 768, "pixel_layout": "diamond",
                     "frames_per_second": 2000, "bits": 8, "color": "gray", "latency_ms": 0.15, "gamma": 1,
                     "fx_px": 1400, "fy_px": 1400, "cx_px": 512, "cy_px": 384, "distortion": [0.1, 0, 0, 0, 0],
                     "position_m": [0, 0.3, 0], "rotation_xyzw": [0, 0, 0, 1],
