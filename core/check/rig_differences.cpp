@@ -95,6 +95,16 @@ void check_projector(const Projector& projector, const RigValues& rig, std::vect
   };
   check_size("width_px", projector.width_px, rig.width_px);
   check_size("height_px", projector.height_px, rig.height_px);
+  if (projector.pixel_layout != rig.pixel_layout) {
+    const bool diamond = rig.pixel_layout == PixelLayout::diamond;
+    findings.push_back({Severity::error,
+                        "rig.differs",
+                        "/projectors/0/pixel_layout",
+                        std::string("the pixels lie in ") + (diamond ? "squares" : "diamonds") +
+                            " in the project and in " + (diamond ? "diamonds" : "squares") + " on the rig",
+                        std::nullopt,
+                        {set_edit("projectors", projector.name, "pixel_layout", diamond ? "diamond" : "square")}});
+  }
 }
 
 }  // namespace

@@ -60,6 +60,10 @@ void adopt_projector(const Projector& now, const Projector& rig, std::vector<Edi
   };
   set_number("width_px", now.width_px, rig.width_px);
   set_number("height_px", now.height_px, rig.height_px);
+  if (now.pixel_layout != rig.pixel_layout) {
+    const char* layout = rig.pixel_layout == PixelLayout::diamond ? "diamond" : "square";
+    edits.push_back(set("projectors", now.name, "pixel_layout", layout));
+  }
   set_number("bits", now.bits, rig.bits);
   set_number("latency_ms", now.latency_ms, rig.latency_ms);
   set_number("frames_per_second", now.frames_per_second, std::min(now.frames_per_second, rig.frames_per_second));
@@ -93,6 +97,7 @@ RigValues rig_values_of(const RigDescription& rig) {
     values.latency_ms = rig.projectors[0].latency_ms;
     values.width_px = rig.projectors[0].width_px;
     values.height_px = rig.projectors[0].height_px;
+    values.pixel_layout = rig.projectors[0].pixel_layout;
   }
   return values;
 }

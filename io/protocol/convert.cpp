@@ -68,6 +68,8 @@ v1::Projector message_from(const Projector& projector) {
   message.set_bits(projector.bits);
   message.set_color(projector.color == ColorMode::rgb ? v1::COLOR_RGB : v1::COLOR_GRAY);
   message.set_latency_ms(projector.latency_ms);
+  const bool diamond = projector.pixel_layout == PixelLayout::diamond;
+  message.set_pixel_layout(diamond ? v1::PIXEL_LAYOUT_DIAMOND : v1::PIXEL_LAYOUT_SQUARE);
   return message;
 }
 
@@ -81,6 +83,8 @@ Projector projector_from(const v1::Projector& message) {
   projector.bits = message.bits();
   projector.color = message.color() == v1::COLOR_RGB ? ColorMode::rgb : ColorMode::gray;
   projector.latency_ms = message.latency_ms();
+  const bool diamond = message.pixel_layout() == v1::PIXEL_LAYOUT_DIAMOND;
+  projector.pixel_layout = diamond ? PixelLayout::diamond : PixelLayout::square;
   return projector;
 }
 

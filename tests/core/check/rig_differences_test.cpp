@@ -102,11 +102,13 @@ TEST_CASE("latency, shutters and exposure differ from 20 us on, image sizes at a
   rig.exposure_ms = 0.4;
   rig.width_px = 912;
   rig.height_px = 1140;
+  rig.pixel_layout = PixelLayout::diamond;
   const std::vector<Finding> findings = rig_differences(project, rig);
   std::vector<std::string> where;
   for (const Finding& finding : findings) where.push_back(finding.where);
   CHECK(where == Codes{"/glasses/shutter_close_ms", "/glasses/shutter_open_ms", "/projectors/0/frames_per_second",
-                       "/projectors/0/height_px", "/projectors/0/latency_ms", "/projectors/0/width_px"});
+                       "/projectors/0/height_px", "/projectors/0/latency_ms", "/projectors/0/pixel_layout",
+                       "/projectors/0/width_px"});
   CHECK(findings[4].amount->value == doctest::Approx(0.021));
   CHECK(findings[4].amount->unit == "ms");
   check_adopted(project, rig);

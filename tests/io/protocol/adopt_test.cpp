@@ -50,6 +50,17 @@ TEST_CASE("a faster rig does not change the rate, a slower one does") {
   CHECK(apply_all(before, adopt(before, rig))->projectors.front().frames_per_second == 1440.0);
 }
 
+TEST_CASE("a rig's lattice of pixels is adopted") {
+  const Project before = project_with_a_projector();
+  RigDescription rig = rig_with_a_lag();
+  rig.projectors.front().pixel_layout = PixelLayout::diamond;
+  const auto after = apply_all(before, adopt(before, rig));
+  REQUIRE(after.ok());
+  CHECK(after->projectors.front().pixel_layout == PixelLayout::diamond);
+  CHECK(adopt(*after, rig).empty());
+  CHECK(rig_values_of(rig).pixel_layout == PixelLayout::diamond);
+}
+
 TEST_CASE("a rig's current limit is taken where it is the lower") {
   Project before = project_with_a_projector();
   RigDescription rig = rig_with_a_lag();

@@ -17,6 +17,7 @@ RigDescription description() {
   projector.model = "lightcrafter4500";
   projector.width_px = 912;
   projector.height_px = 1140;
+  projector.pixel_layout = PixelLayout::diamond;
   projector.frames_per_second = 1440.5;
   projector.bits = 1;
   projector.color = ColorMode::rgb;
