@@ -21,6 +21,7 @@ focalstage_room(io/files        USES core/base                     PRIVATE_LIBS 
 focalstage_room(io/json         USES core/scene                    PRIVATE_LIBS nlohmann_json::nlohmann_json)
 focalstage_room(io/image        USES io/files core/mesh            PRIVATE_LIBS PNG::PNG JPEG::JPEG)
 focalstage_room(io/project      USES io/json io/files core/scene   PRIVATE_LIBS ValiJSON::valijson nlohmann_json::nlohmann_json)
+focalstage_room(io/models       USES io/project io/json io/files core/schedule core/scene)
 focalstage_room(io/journal      USES io/json io/files core/scene)
 focalstage_room(io/assets       USES io/image io/files core/scene core/mesh PRIVATE_LIBS TinyGLTF::TinyGLTF nlohmann_json::nlohmann_json)
 focalstage_room(io/study        USES io/project io/json io/files core/study core/scene)
@@ -56,7 +57,7 @@ focalstage_room(devices/player  USES devices/roles io/show core/schedule)
 focalstage_room(devices/uno     USES devices/serial devices/roles core/base)
 focalstage_room(devices/catalog USES devices/uno devices/mcc1208 devices/plugin devices/rig devices/roles io/rig_config core/scene core/base)
 focalstage_room(devices/runtime USES devices/catalog devices/rig devices/player devices/sim devices/natnet devices/recording devices/roles io/show io/project io/assets
-                                     io/json io/protocol io/credentials io/rig_config io/files core/check core/compile core/schedule core/stage
+                                     io/json io/models io/protocol io/credentials io/rig_config io/files core/check core/compile core/schedule core/stage
                                      core/tracking
                                 PRIVATE_LIBS spdlog::spdlog gRPC::grpc++ gRPC::grpc++_reflection)
 # C for a microcontroller, a program of its own: on this side only its tests
@@ -66,19 +67,19 @@ focalstage_room(devices/service USES devices/runtime io/protocol io/rig_config i
 
 # editor: what people touch
 focalstage_room(editor/samples  USES io/files core/base)
-focalstage_room(editor/pipeline USES io/project io/assets io/show core/check core/reference core/compile core/percept core/retina
+focalstage_room(editor/pipeline USES io/models io/project io/assets io/show core/check core/reference core/compile core/percept core/retina
                                      core/schedule)
 focalstage_room(editor/trials   USES editor/pipeline io/study io/protocol io/show io/project core/study)
-focalstage_room(editor/cli      USES editor/samples editor/pipeline editor/trials io/study io/project io/assets io/show io/export io/plot
+focalstage_room(editor/cli      USES editor/samples editor/pipeline editor/trials io/study io/models io/project io/assets io/show io/export io/plot
                                      io/credentials io/protocol core/calibrate core/check core/reference core/compile core/percept
                                      core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
-focalstage_room(editor/document USES editor/samples io/journal io/project io/assets io/files core/scene)
+focalstage_room(editor/document USES editor/samples io/journal io/models io/project io/assets io/files core/scene)
 focalstage_room(editor/tools    USES core/percept core/compile core/stage core/optics core/scene core/mesh)
 focalstage_room(editor/preview  USES editor/tools core/check core/compile core/reference core/percept core/retina core/schedule
                                      core/stage)
 focalstage_room(editor/rig      USES io/protocol io/project io/assets io/files)
-focalstage_room(editor/session  USES editor/tools editor/document editor/preview editor/rig editor/pipeline io/export io/image
+focalstage_room(editor/session  USES editor/tools editor/document editor/preview editor/rig editor/pipeline io/models io/export io/image
                                      core/schedule)
 
 # the window: GLFW, Dear ImGui and VTK live here and nowhere else

@@ -79,6 +79,9 @@ Candidates solver_candidates(const Project& project, const Measured& measured,
 Candidates depth_candidates(const Project& project, const Finding& finding, const Measured& measured);
 
 /// Focus where it stands, for an object that is told to focus elsewhere.
+Candidates model_candidates(const Project& project, const Finding& finding, std::span<const ProjectorModelData> models);
+Candidates pixel_layout_candidates(const Project& project, const Finding& finding,
+                                   std::span<const ProjectorModelData> models);
 Candidates conflict_candidates(const Project& project, const Finding& finding);
 
 }  // namespace focalstage

@@ -26,10 +26,6 @@ std::vector<Finding> planned_findings(const Project& project, const std::vector<
   return findings;
 }
 
-std::vector<Finding> check(const Project& project, const ScheduleResult& schedule, const Measured& measured) {
-  return check(project, schedule, measured, projector_models());
-}
-
 std::vector<Finding> check(const Project& project, const ScheduleResult& schedule, const Measured& measured,
                            std::span<const ProjectorModelData> models) {
   const std::vector<Finding> planned = planned_findings(project, schedule.troubles, models);

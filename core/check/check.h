@@ -23,16 +23,14 @@ struct Measured {
   std::optional<Needs> needs;  ///< of all frames: lets remedies come from the solver
 };
 
-/// Everything wrong with a project, in a fixed order (errors first, then by code and place), each with its amount and,
-/// where there is one, a remedy of edits that clears it and brings no new error. The codes are those of design section
-/// 6 and `schedule.waveform`: a sweep that is no curve, so that nothing can be timed.
+/// Everything wrong with a project, in a fixed order (errors first, then by code and place), each with its amount if it
+/// has one and, where there is one, a remedy of edits that clears it and brings no new error. The codes are those of
+/// design section 6 and of docs/formats/findings.md.
 ///
 /// One finding per culprit: the worst of both eyes and all frames. A remedy is tried on the project before it is
 /// offered, except for what only compiling can measure. Where no change near the culprit helps and it is known what all
-/// frames need, the remedy is the solver's whole proposal.
-std::vector<Finding> check(const Project& project, const ScheduleResult& schedule, const Measured& measured);
-
-/// The same with projector models of one's own.
+/// frames need, the remedy is the solver's whole proposal. `models`: the projectors that somebody described
+/// (io/models).
 std::vector<Finding> check(const Project& project, const ScheduleResult& schedule, const Measured& measured,
                            std::span<const ProjectorModelData> models);
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "core/check/candidates.h"
@@ -10,7 +11,7 @@ namespace {
 
 /// Whole microseconds, so that the file stays readable.
 double floor_us(double time_ms) { return std::floor(time_ms * 1000.0) / 1000.0; }
-double ceil_us(double time_ms) { return std::ceil(time_ms * 1000.0) / 1000.0; }
+double ceil_us(double time_ms) { return std::ceil(time_ms * 1000.0 - 1e-6) / 1000.0; }
 
 Edit projector_edit(const Projector& projector, const std::string& key, Value value) {
   return set_edit("projectors", projector.name, key, std::move(value));
@@ -23,12 +24,18 @@ double known_rate(const Projector& projector, std::span<const ProjectorModelData
   return rate.value_or(projector.frames_per_second);
 }
 
+/// As short as is known to work; nothing where the model is not known, and anything might.
+double known_exposure_ms(const Projector& projector, std::span<const ProjectorModelData> models) {
+  const ProjectorModelData* model = find_model(models, projector.model);
+  if (model == nullptr) return 0.0;
+  return least_exposure_ms(*model, projector.bits, projector.color).value_or(1000.0 / projector.frames_per_second);
+}
+
 /// Exposures of `wanted_ms` where the projector can have them so short.
 std::optional<Edits> exposure_edits(const Projector& projector, double wanted_ms,
                                     std::span<const ProjectorModelData> models) {
   const double exposure_ms = floor_us(wanted_ms);
-  const bool known = find_model(models, projector.model) != nullptr;
-  if (!(exposure_ms > 0.0) || (known && exposure_ms < 1000.0 / known_rate(projector, models))) return std::nullopt;
+  if (!(exposure_ms > 0.0) || exposure_ms < known_exposure_ms(projector, models)) return std::nullopt;
   return Edits{projector_edit(projector, "exposure_ms", exposure_ms)};
 }
 
@@ -102,12 +109,49 @@ Candidates bit_depth_candidates(const Project& project, const Finding& finding,
       candidates.push_back({{projector_edit(projector, "frames_per_second", std::floor(*fastest))}});
     }
     if (fastest && projector.exposure_ms) {
-      candidates.push_back({{projector_edit(projector, "exposure_ms", ceil_us(1000.0 / *fastest))}});
+      candidates.push_back({{projector_edit(projector, "exposure_ms", ceil_us(known_exposure_ms(projector, models)))}});
     }
     for (int bits = std::min(projector.bits, model->rates.back().bits + 1) - 1; bits >= 1; --bits) {
       candidates.push_back({{projector_edit(projector, "bits", bits)}});
     }
     if (projector.color == ColorMode::rgb) candidates.push_back({{projector_edit(projector, "color", "gray")}, true});
+  }
+  return candidates;
+}
+
+/// Nobody's word but one that differs by case, blanks or dashes alone means a model that is known.
+Candidates model_candidates(const Project& project, const Finding& finding,
+                            std::span<const ProjectorModelData> models) {
+  const auto plain = [](const std::string& name) {
+    std::string letters;
+    for (const char c : name) {
+      if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+        letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    return letters;
+  };
+  Candidates candidates;
+  for (std::size_t i = 0; i < project.projectors.size(); ++i) {
+    const Projector& projector = project.projectors[i];
+    if (finding.where != item_pointer("projectors", i) + "/model") continue;
+    for (const ProjectorModelData& model : models) {
+      if (plain(model.name) == plain(projector.model)) {
+        candidates.push_back({{projector_edit(projector, "model", model.name)}});
+      }
+    }
+  }
+  return candidates;
+}
+
+Candidates pixel_layout_candidates(const Project& project, const Finding& finding,
+                                   std::span<const ProjectorModelData> models) {
+  Candidates candidates;
+  for (std::size_t i = 0; i < project.projectors.size(); ++i) {
+    const Projector& projector = project.projectors[i];
+    const ProjectorModelData* model = find_model(models, projector.model);
+    if (finding.where != item_pointer("projectors", i) + "/pixel_layout" || model == nullptr) continue;
+    const char* layout = model->layout == PixelLayout::diamond ? "diamond" : "square";
+    candidates.push_back({{projector_edit(projector, "pixel_layout", layout)}});
   }
   return candidates;
 }

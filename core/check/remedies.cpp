@@ -52,6 +52,9 @@ Candidates candidates_for(const Project& project, const Finding& finding, const 
   if (code == "optics.lens-current") return lens_current_candidates(project);
   if (code == "depth.out-of-range") return depth_candidates(project, finding, measured);
   if (code == "view.conflict") return conflict_candidates(project, finding);
+  if (code == "projector.unknown-model") return model_candidates(project, finding, models);
+  if (code == "projector.pixel-layout") return pixel_layout_candidates(project, finding, models);
+  if (code == "slices.optimal-lattice") return {{{set_edit("slices", "", "assignment", "linear")}}};
   if (code == "frames.rate") return frame_rate_candidates(project, finding);
   if (code == "safety.flicker") return flicker_candidates(project);
   return {};

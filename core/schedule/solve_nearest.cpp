@@ -45,7 +45,8 @@ std::optional<NearestSetting> shorter_exposure(const SolveTerms& terms, std::spa
   const auto fastest = model == nullptr ? std::nullopt : fastest_rate(*model, projector.bits, projector.color);
   if (!fastest) return std::nullopt;  // nobody knows what it can do
   const double now_s = slot_pitch_s(projector);
-  const double least_s = std::ceil(1e6 / *fastest - 1e-6) / 1e6;
+  const double shown_s = *least_exposure_ms(*model, projector.bits, projector.color) / 1000.0;
+  const double least_s = std::ceil(1e6 * std::max(1.0 / *fastest, shown_s) - 1e-6) / 1e6;
   if (!(least_s < now_s)) return std::nullopt;
 
   const std::function<std::optional<SolvedRig>(double)> try_at = [&](double share) {

@@ -1,6 +1,5 @@
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "devices/runtime/make_tracker.h"
 #include "devices/service/logs.h"
 #include "devices/service/service.h"
+#include "io/files/user_folders.h"
 
 namespace focalstage {
 namespace {
@@ -32,14 +32,7 @@ struct Flags {
   std::vector<double> tracker_pose;
 };
 
-std::filesystem::path default_store() {
-  if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && *state == '/') {
-    return std::filesystem::path(state) / "focalstage" / "store";
-  }
-  const char* home = std::getenv("HOME");
-  const std::filesystem::path base = home != nullptr && *home == '/' ? home : "/var/tmp";
-  return base / ".local" / "state" / "focalstage" / "store";
-}
+std::filesystem::path default_store() { return user_state_folder() / "store"; }
 
 /// Blocked in every thread, so that one place waits for them.
 sigset_t ending_signals() {

@@ -29,11 +29,11 @@ class NoRig : public RigPort {
   void dark(double) override {}
 };
 
-Status without_errors(const Project& project, const ScheduleResult& schedule,
-                      const std::vector<FrameMeasure>& measures) {
+Status without_errors(const Project& project, const ScheduleResult& schedule, const std::vector<FrameMeasure>& measures,
+                      const ProjectorModels& models) {
   Measured measured;
   measured.frames = measures;
-  for (const Finding& finding : check(project, schedule, measured)) {
+  for (const Finding& finding : check(project, schedule, measured, models)) {
     if (finding.severity != Severity::error) continue;
     return Fault{"rig.refused", "show " + finding.where, finding.message + " (" + finding.code + ")",
                  "correct the project and compile it again"};
@@ -105,7 +105,7 @@ Status fits_rig(const ShowHeader& show, const Project& project, const RigDescrip
 
 Result<SweepPlan> admit(const ShowHeader& show, const Project& project, const ScheduleResult& schedule,
                         const std::vector<FrameMeasure>& measures, const RigTerms& rig) {
-  if (Status sound = without_errors(project, schedule, measures); !sound) return sound.fault();
+  if (Status sound = without_errors(project, schedule, measures, rig.models); !sound) return sound.fault();
   if (Status fits = fits_rig(show, project, rig.describe(show.frequency_hz)); !fits) return fits.fault();
   Result<SweepPlan> plan =
       sweep_plan(show, project.projectors.empty() ? PictureForm{}.bits : project.projectors[0].bits);

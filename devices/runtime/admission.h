@@ -5,6 +5,7 @@
 
 #include "core/base/result.h"
 #include "core/compile/frame.h"
+#include "core/schedule/projector_models.h"
 #include "core/schedule/schedule.h"
 #include "devices/player/limits.h"
 #include "devices/player/sweep_plan.h"
@@ -19,6 +20,7 @@ using DescribeRig = std::function<RigDescription(double frequency_hz)>;
 struct RigTerms {
   DescribeRig describe;
   RigLimits limits;
+  ProjectorModels models{};
 };
 
 /// The plan by which this rig will play the show, whether it was pushed or made live, or why it will not: "rig.refused"

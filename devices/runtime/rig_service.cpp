@@ -63,7 +63,8 @@ RuntimeFigures RigService::figures() const {
 }
 
 RigTerms RigService::terms() const {
-  return {[settings = settings_](double hz) { return settings.rig.describe(settings.limits, hz); }, settings_.limits};
+  return {[settings = settings_](double hz) { return settings.rig.describe(settings.limits, hz); }, settings_.limits,
+          settings_.models};
 }
 
 Status RigService::operate(const DeskCommand& command, bool despite_lease) {

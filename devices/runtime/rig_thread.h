@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/schedule/projector_models.h"
 #include "devices/player/player.h"
 #include "devices/player/priority_mutex.h"
 #include "devices/runtime/fault_tally.h"
@@ -27,7 +28,8 @@ struct RigThreadSettings {
   RigLimits limits;
   RigClock clock = RigClock::real_time;
   AtEnd at_end = AtEnd::loop;
-  int sweeps_ahead = 6;  ///< handed over before they begin, so that a pause of this program is not seen
+  ProjectorModels models{};  ///< by which a show's exposures are judged; none: only by the rig itself
+  int sweeps_ahead = 6;      ///< handed over before they begin, so that a pause of this program is not seen
 };
 
 /// Plays shows on a rig, sweep after sweep, in a thread of its own. In real time sweeps are handed over a

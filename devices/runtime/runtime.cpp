@@ -5,6 +5,7 @@
 #include "devices/roles/clock.h"
 #include "devices/runtime/rig_service.h"
 #include "devices/runtime/server.h"
+#include "io/models/models.h"
 
 namespace focalstage {
 
@@ -48,8 +49,12 @@ constexpr double most_silent_s = 2.0;
 
 }  // namespace
 
-Result<Runtime> Runtime::start(const RuntimeOptions& options) {
-  if (Status may = may_listen(options.listen, options.network); !may) return may.fault();
+Result<Runtime> Runtime::start(const RuntimeOptions& asked) {
+  if (Status may = may_listen(asked.listen, asked.network); !may) return may.fault();
+  auto models = known_models();
+  if (!models) return models.fault();
+  RuntimeOptions options = asked;
+  options.rig.models = *std::move(models);
   Result<std::unique_ptr<ShowStore>> store = ShowStore::open(options.store);
   if (!store) return store.fault();
   Result<std::unique_ptr<AssetStore>> assets = AssetStore::open(options.store);

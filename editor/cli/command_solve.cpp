@@ -116,7 +116,7 @@ void print_summary(const Options& options, const Project& project, const SolveRe
 Result<SolveReport> solve_with_progress(const Options& options, const Source& source, std::stop_token stop) {
   Progress bar("Solving " + source.project.name, options.json ? Progress::Style::quiet : Progress::Style::automatic);
   return solve_project(
-      source.project, source.loaded.assets, options.wishes,
+      source.project, source.loaded.assets, source.models, options.wishes,
       [&](double share, const std::string&) { bar.update(share, 1.0, ""); }, std::move(stop));
 }
 

@@ -8,6 +8,7 @@
 #include "io/assets/assets.h"
 #include "io/files/files.h"
 #include "io/json/json.h"
+#include "io/models/models.h"
 
 namespace focalstage {
 namespace {
@@ -78,6 +79,7 @@ Result<std::filesystem::path> apply_and_save(const LoadedProject& loaded, const 
       !std::filesystem::equivalent(folder, std::filesystem::absolute(loaded.file).parent_path(), problem);
   if (elsewhere) {
     if (Status copied = copy_assets(*edited, loaded.file.parent_path(), folder); !copied) return copied.fault();
+    if (Status copied = copy_models(loaded.file.parent_path(), folder); !copied) return copied.fault();
   }
   if (Status saved = save_project(*edited, file); !saved) return saved.fault();
   return file;

@@ -6,6 +6,7 @@
 #include "editor/document/recent.h"
 #include "io/assets/image_plane.h"
 #include "io/files/files.h"
+#include "io/models/models.h"
 #include "io/project/project_file.h"
 
 namespace focalstage {
@@ -104,6 +105,7 @@ Status Document::save_as(const fs::path& asked) {
   fs::create_directories(file.parent_path(), problem);
   if (problem) return Fault{"file.unwritable", file.parent_path().string(), problem.message(), "choose another place"};
   if (Status written = write_files(files_of(project(), folder()), file.parent_path()); !written) return written;
+  if (Status copied = copy_models(folder(), file.parent_path()); !copied) return copied;
   if (Status saved = save_project(project(), file); !saved) return saved;
   if (file != file_) close();
   file_ = file;

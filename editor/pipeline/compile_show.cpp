@@ -38,13 +38,13 @@ Result<FrameRange> range_of(const Project& project, const std::optional<FrameRan
 /// What all frames need is measured only where a remedy may come of it.
 Result<std::vector<Finding>> findings_of(const Source& source, const ScheduleResult& schedule, Measured measured,
                                          FrameRange frames, const std::stop_token& stop) {
-  std::vector<Finding> findings = check(source.project, schedule, measured);
+  std::vector<Finding> findings = check(source.project, schedule, measured, source.models);
   if (needs_would_help(findings)) {
     auto needs = measure_needs(
         source.project, source.loaded.assets, frames, [](int, int) {}, stop);
     if (!needs) return needs.fault();
     measured.needs = *std::move(needs);
-    findings = check(source.project, schedule, measured);
+    findings = check(source.project, schedule, measured, source.models);
   }
   findings.insert(findings.end(), source.notes.begin(), source.notes.end());
   return findings;

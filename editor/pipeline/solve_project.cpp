@@ -46,8 +46,7 @@ bool widen(const Project& solved, const Measured& measured, Needs& needs) {
   return widened;
 }
 
-void propose(const Project& project, SolveReport& report) {
-  const auto models = projector_models();
+void propose(const Project& project, std::span<const ProjectorModelData> models, SolveReport& report) {
   if (!report.result.rig) {
     report.nearest = nearest_proposals(project, report.result, models);
     report.findings = solve_findings(project, report.result, report.nearest);
@@ -66,7 +65,8 @@ void withdraw(SolveReport& report) {
 
 }  // namespace
 
-Result<SolveReport> solve_project(const Project& project, const Assets& assets, const SolveWishes& wishes,
+Result<SolveReport> solve_project(const Project& project, const Assets& assets,
+                                  std::span<const ProjectorModelData> models, const SolveWishes& wishes,
                                   const SolveProgress& progress, std::stop_token stop) {
   if (project.projectors.empty()) {
     return Fault{"project.no-projector", "/projectors", "the project has no projector", "add one"};
@@ -85,9 +85,9 @@ Result<SolveReport> solve_project(const Project& project, const Assets& assets, 
   Needs solved_for = report.needs;
   for (int round = 1;; ++round) {
     progress(0.4, "solving");
-    report.result = solve(project, solved_for, wishes, projector_models(), {SolveBounds{}.steps, stop});
+    report.result = solve(project, solved_for, wishes, models, {SolveBounds{}.steps, stop});
     if (stop.stop_requested()) return cancelled(project);
-    propose(project, report);
+    propose(project, models, report);
     if (!report.solved()) return report;
     if (has_error(report.findings)) {
       withdraw(report);
@@ -97,7 +97,7 @@ Result<SolveReport> solve_project(const Project& project, const Assets& assets, 
     if (!solved) return solved.fault();
     const auto measured = measured_by_compiling(*solved, assets, part(0.5, 0.5, "proved"), stop);
     if (!measured) return measured.fault();
-    report.findings = check(*solved, make_schedule(*solved, image_plan(*solved)), *measured);
+    report.findings = check(*solved, make_schedule(*solved, image_plan(*solved)), *measured, models);
     if (round == most_rounds || !widen(*solved, *measured, solved_for)) break;
   }
   if (has_error(report.findings)) withdraw(report);

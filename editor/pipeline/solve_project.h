@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -35,7 +36,8 @@ using SolveProgress = std::function<void(double share, const std::string& detail
 /// again, twice at most. A
 /// proposal is made only where the rules, and what compiling measured, have no error for it. Faults: "solve.cancelled",
 /// "project.no-projector" and those of staging and compiling.
-Result<SolveReport> solve_project(const Project& project, const Assets& assets, const SolveWishes& wishes,
+Result<SolveReport> solve_project(const Project& project, const Assets& assets,
+                                  std::span<const ProjectorModelData> models, const SolveWishes& wishes,
                                   const SolveProgress& progress, std::stop_token stop);
 
 }  // namespace focalstage

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/models/models.h"
 #include "io/project/project_file.h"
 
 namespace focalstage {
@@ -14,7 +15,10 @@ Result<Source> open_project(const std::filesystem::path& project) {
   if (!read) return read.fault();
   auto loaded = load_assets(read->project, read->file.parent_path());
   if (!loaded) return loaded.fault();
-  return Source{std::move(read->project), std::move(read->text), std::move(*loaded), std::move(read->notes)};
+  auto models = known_models(read->file.parent_path());
+  if (!models) return models.fault();
+  return Source{std::move(read->project), std::move(read->text), std::move(*loaded), std::move(read->notes),
+                *std::move(models)};
 }
 
 Result<Source> project_in(const ShowReader& show, const std::string& name) {
@@ -23,8 +27,11 @@ Result<Source> project_in(const ShowReader& show, const std::string& name) {
   if (!read) return read.fault();
   auto assets = assets_from(read->project, header.assets);
   if (!assets) return assets.fault();
+  auto models = known_models();
+  if (!models) return models.fault();
   LoadedAssets loaded{std::move(*assets), header.assets};
-  return Source{std::move(read->project), header.project_text, std::move(loaded), std::move(read->notes)};
+  return Source{std::move(read->project), header.project_text, std::move(loaded), std::move(read->notes),
+                *std::move(models)};
 }
 
 bool is_show(const std::filesystem::path& path) {

@@ -7,6 +7,7 @@
 #include "core/base/result.h"
 #include "core/scene/finding.h"
 #include "core/scene/project.h"
+#include "core/schedule/projector_models.h"
 #include "io/assets/assets.h"
 #include "io/show/reader.h"
 
@@ -18,12 +19,13 @@ struct Source {
   std::string text;  ///< the bytes of the project file
   LoadedAssets loaded;
   std::vector<Finding> notes;  ///< what reading it noticed: unknown keys, an older version
+  ProjectorModels models{};    ///< what its projectors can do
 };
 
 /// `NAME.focal` or the folder that holds it.
 Result<Source> open_project(const std::filesystem::path& project);
 
-/// The project inside a show; nothing beside the show is read. `name` is the show's, for faults.
+/// The project inside a show; of what lies beside the show nothing is read. `name` is the show's, for faults.
 Result<Source> project_in(const ShowReader& show, const std::string& name);
 
 /// Whether the file says it is a show, by its first words or its name.

@@ -14,6 +14,7 @@
 #include "core/compile/frame.h"
 #include "core/scene/finding.h"
 #include "core/scene/project.h"
+#include "core/schedule/projector_models.h"
 #include "core/schedule/schedule.h"
 #include "core/stage/stage.h"
 
@@ -106,7 +107,8 @@ struct PreviewWish {
   int frame = 0;
   std::shared_ptr<const Project> project;
   std::shared_ptr<const Stage> stage;
-  bool moving = false;  ///< a hand is still at it: reduced size is enough
+  std::shared_ptr<const ProjectorModels> models;  ///< null: none are known
+  bool moving = false;                            ///< a hand is still at it: reduced size is enough
   bool uncompensated = false;
   EyeWish eye;
   std::optional<FocusQuestion> focus_at;

@@ -54,14 +54,14 @@ MakeShow show_of(const Session::State& state) {
   const auto project = state.document->history().now();
   const auto folder = state.document->folder();
   const auto target = state.folders.state / "push";
-  return [project, folder, target](const std::function<void(double)>& progress,
-                                   std::stop_token stop) -> Result<std::filesystem::path> {
+  return [project, folder, target, models = state.models](const std::function<void(double)>& progress,
+                                                          std::stop_token stop) -> Result<std::filesystem::path> {
     auto loaded = load_assets(*project, folder);
     if (!loaded) return loaded.fault();
     std::error_code problem;
     std::filesystem::create_directories(target, problem);
     if (problem) return Fault{"file.unwritable", target.string(), problem.message(), "free some space"};
-    const Source source{*project, project_text(*project), std::move(*loaded), {}};
+    const Source source{*project, project_text(*project), std::move(*loaded), {}, *models};
     CompileJob job;
     job.show = target / "show.h5";
     const auto report = compile_show(

@@ -88,9 +88,9 @@ Status start(Session& session, const Value& args) {
   session.end_drag();
   state.solve_offer = nullptr;
   state.jobs.start(title, [&state, wishes = *wishes, project = state.document->history().now(),
-                           assets = state.document->shelf().assets(),
+                           assets = state.document->shelf().assets(), models = state.models,
                            revision = state.revision()](const Jobs::Progress& progress, std::stop_token stop) {
-    auto report = solve_project(*project, assets, wishes, progress, std::move(stop));
+    auto report = solve_project(*project, assets, *models, wishes, progress, std::move(stop));
     if (!report) return told(state, revision, report.fault());
     return told(state, revision, offer_of(*project, revision, *std::move(report)));
   });

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "core/schedule/projector_models.h"
 #include "core/stage/stage.h"
 #include "editor/session/property.h"
 #include "editor/tools/pick.h"
@@ -20,6 +22,7 @@ struct PropertyScope {
   Picker* picker = nullptr;      ///< to measure depths with; null: they are left out
   /// Pitch, yaw and roll as they were shown last: of all angles that mean the same turn, those nearest are shown.
   glm::dvec3 angles_near_deg{0.0};
+  std::shared_ptr<const ProjectorModels> models{};  ///< to choose among; null: none
 };
 
 /// All rows of what is selected, in groups. Of several things those rows that all of them have; of none the project's

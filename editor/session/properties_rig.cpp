@@ -22,11 +22,14 @@ double number_at(const PropertyRows& rows, std::string_view key, double otherwis
 
 void add_model_row(PropertyRows& rows) {
   std::vector<PropertyChoice> choices;
-  for (const ProjectorModelData& model : projector_models()) choices.push_back({Value(model.name), model.name});
+  if (rows.scope().models) {
+    for (const ProjectorModelData& model : *rows.scope().models) choices.push_back({Value(model.name), model.name});
+  }
   const Value& model = rows.at("model");
   const bool known = std::any_of(choices.begin(), choices.end(), [&](const auto& c) { return c.value == model; });
   if (!known && model.text()) choices.push_back({model, *model.text()});
-  rows.choice("model", "model", std::move(choices)).help = "What it can do at each bit depth, and who is the clock.";
+  rows.choice("model", "model", std::move(choices)).help =
+      "What it can do at each bit depth, and who is the clock. More: files in models/ beside the project.";
 }
 
 void add_picture_rows(PropertyRows& rows) {
@@ -34,6 +37,10 @@ void add_picture_rows(PropertyRows& rows) {
   add_model_row(rows);
   rows.number<Projector>("width", "width_px", {"px", 0, 1.0});
   rows.number<Projector>("height", "height_px", {"px", 0, 1.0});
+  Property& lattice =
+      rows.choice("lattice", "pixel_layout", {{Value("square"), "square"}, {Value("diamond"), "diamond"}});
+  if (lattice.value.is_null()) lattice.value = Value("square");  // a project does not say it
+  lattice.help = "Diamond: odd rows lie half a pixel to the right, and rows are half as far apart as columns.";
   Property& bits = rows.number<Projector>("bits", "bits", {"", 0, 0.05});
   bits.other = std::to_string(1 << std::clamp(static_cast<int>(number_at(rows, "bits", 8)), 0, 16)) + " levels";
   rows.choice("colour", "color", {{Value("gray"), "gray"}, {Value("rgb"), "red, green, blue"}});

@@ -51,6 +51,7 @@ bool Session::has_document() const { return state_->document.has_value(); }
 const Document& Session::document() const { return *state_->document; }
 const Project& Session::project() const { return state_->project(); }
 std::uint64_t Session::revision() const { return state_->revision(); }
+const std::shared_ptr<const ProjectorModels>& Session::models() const { return state_->models; }
 const std::shared_ptr<const Stage>& Session::stage() const { return state_->stage; }
 const Selection& Session::selection() const { return state_->selection; }
 

@@ -10,6 +10,7 @@
 #include "core/base/result.h"
 #include "core/scene/history.h"
 #include "core/scene/value.h"
+#include "core/schedule/projector_models.h"
 #include "editor/document/document.h"
 #include "editor/preview/pixel_reader.h"
 #include "editor/preview/preview.h"
@@ -55,6 +56,8 @@ class Session {
   const Document& document() const;
   const Project& project() const;  ///< the open one; an empty one where none is
   std::uint64_t revision() const;
+  /// The projector models that the open project can name; null before anything was open.
+  const std::shared_ptr<const ProjectorModels>& models() const;
   /// The room at the frame in view, always of the present revision (what can't be stood up is left out).
   const std::shared_ptr<const Stage>& stage() const;
 

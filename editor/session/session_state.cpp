@@ -10,6 +10,7 @@
 #include "editor/session/edits.h"
 #include "editor/tools/pick.h"
 #include "editor/tools/room_camera.h"
+#include "io/models/models.h"
 
 namespace focalstage {
 namespace {
@@ -121,6 +122,7 @@ void Session::State::wish_preview() {
   wish.frame = view.frame;
   wish.project = document->history().now();
   wish.stage = stage;
+  wish.models = models;
   wish.moving = dragging || view.playing;
   wish.uncompensated = view.compensation != Compensation::on;
   wish.eye = eye_wish(view, eye_size_px);
@@ -146,10 +148,20 @@ void Session::State::take(Document opened) {
   stage = nullptr;
   preview.clear();
   recent = recent_projects(folders);
+  read_models();
   restage();
   fit_views();
   wish_preview();
   for (const Finding& note : document->notes()) say(LogLine::Kind::info, note.where + ": " + note.message);
+}
+
+void Session::State::read_models() {
+  auto known = known_models(document->folder());
+  if (!known) {
+    say(LogLine::Kind::fault, describe(known.fault()));
+    known = shipped_models();
+  }
+  models = std::make_shared<const ProjectorModels>(known ? *std::move(known) : ProjectorModels{});
 }
 
 /// The room's camera and the eye's field such that everything is seen at first.

@@ -62,6 +62,7 @@ struct Session::State {
   std::shared_ptr<const Stage> stage;
   std::uint64_t staged_revision = 0;
   int staged_frame = -1;
+  std::shared_ptr<const ProjectorModels> models;  ///< known to the open project
   std::vector<Finding> asset_findings;
   bool reading = false;               ///< files of the project, behind the window
   std::vector<Finding> rig_findings;  ///< where the project is not made for the rig that is there
@@ -111,6 +112,8 @@ struct Session::State {
 
   /// Drops what is selected but is no more.
   void tidy();
+  /// Of the folder in view. What cannot be read is told, and the program's own models serve.
+  void read_models();
   void read_files(const std::vector<std::string>& wanted);
   void restage();
   void fit_views();

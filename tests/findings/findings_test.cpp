@@ -16,6 +16,7 @@
 #include "core/schedule/schedule.h"
 #include "core/stage/stage.h"
 #include "io/project/project_file.h"
+#include "tests/support/models.h"
 
 using namespace focalstage;
 
@@ -47,7 +48,7 @@ std::vector<Finding> findings_of(const Project& project) {
     REQUIRE(conflict.add(*staged, compiled->images, {}));
   }
   measured.conflicts = conflict.conflicts();
-  return check(project, make_schedule(project, settings.images), measured);
+  return check(project, make_schedule(project, settings.images), measured, support::models());
 }
 
 std::set<std::string> codes(const std::vector<Finding>& findings) {
@@ -73,7 +74,7 @@ void check_cleared(const Project& project, const std::vector<Finding>& before, c
   }
 }
 
-void check_code(const std::string& code, Severity severity, bool remedied) {
+void check_code(const std::string& code, Severity severity, bool remedied, bool measured = true) {
   CAPTURE(code);
   const Project project = load(code);
   const std::vector<Finding> findings = findings_of(project);
@@ -81,7 +82,7 @@ void check_code(const std::string& code, Severity severity, bool remedied) {
   for (const Finding& finding : findings) {
     CAPTURE(finding.message);
     CHECK(finding.severity == severity);
-    CHECK(finding.amount);
+    CHECK(finding.amount.has_value() == measured);
     if (remedied) {
       check_cleared(project, findings, finding);
     } else {
@@ -111,6 +112,10 @@ TEST_CASE("view.unseen") { check_code("view.unseen", Severity::warning, false); 
 TEST_CASE("view.conflict") { check_code("view.conflict", Severity::warning, true); }
 TEST_CASE("light.clipped") { check_code("light.clipped", Severity::warning, false); }
 TEST_CASE("projector.defocus") { check_code("projector.defocus", Severity::warning, false); }
+
+TEST_CASE("projector.unknown-model") { check_code("projector.unknown-model", Severity::warning, true, false); }
+TEST_CASE("projector.pixel-layout") { check_code("projector.pixel-layout", Severity::warning, true, false); }
+TEST_CASE("slices.optimal-lattice") { check_code("slices.optimal-lattice", Severity::warning, true, false); }
 
 TEST_CASE("rig.differs") {
   const Project project = load("rig.differs");
@@ -148,7 +153,10 @@ TEST_CASE("every project here belongs to a test, and every code of the design to
                                        "rig.differs",
                                        "optics.lens-current",
                                        "view.unseen",
-                                       "view.conflict"};
+                                       "view.conflict",
+                                       "projector.unknown-model",
+                                       "projector.pixel-layout",
+                                       "slices.optimal-lattice"};
   std::set<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.is_directory()) found.insert(entry.path().filename().string());

@@ -36,8 +36,9 @@ class PropertiesPanel final : public Panel {
   static bool opens(const std::string& title) { return title != "Distortion"; }
 
   PropertyScope scope_of(const Session& session) {
-    return {session.project(), session.view().frame / session.project().frames.rate_hz, session.stage().get(), &picker_,
-            angles_deg_};
+    return {session.project(),     session.view().frame / session.project().frames.rate_hz,
+            session.stage().get(), &picker_,
+            angles_deg_,           session.models()};
   }
 
   void refresh(const Session& session) {

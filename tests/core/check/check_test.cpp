@@ -119,7 +119,7 @@ TEST_CASE("smear that the projector is too slow to avoid has no remedy") {
   Project project = with_sweep(-2.0, 2.0);
   project.projectors[0].frames_per_second = 1000.0;
   project.slices.powers_d = {0.0};
-  const ProjectorModelData slow{"slow", 1024, 768, ClockMaster::rig, PixelLayout::square, {{8, 1000.0}}};
+  const ProjectorModelData slow{"slow", 1024, 768, ProjectorClock::triggered, PixelLayout::square, {{8, 1000.0}}, {}};
   project.projectors[0].model = "slow";
   const std::vector<ProjectorModelData> models{slow};
   for (const Finding& finding : check(project, make_schedule(project, image_plan(project)), {}, models)) {
@@ -164,7 +164,57 @@ TEST_CASE("more images a second than the projector shows at that depth") {
   CHECK(findings[0].where == "/projectors/0/bits");
   CHECK(*findings[0].amount == Amount{9.0, 8.0, "bits"});
   project.projectors[0].model = "my own";  // nothing is known of it
+  CHECK(codes(check_of(project)) == Codes{"projector.unknown-model"});
+}
+
+TEST_CASE("an exposure shorter than the model's, though the rate is not") {
+  Project project = quiet_project();
+  project.projectors[0].model = "slow to start";
+  const std::vector<ProjectorModelData> models{
+      {"slow to start", 1024, 768, ProjectorClock::triggered, PixelLayout::square, {{8, 2000.0, 0.45}}, {}}};
+  const auto findings = [&] { return check(project, make_schedule(project, image_plan(project)), {}, models); };
+  project.projectors[0].exposure_ms = 0.45;
+  CHECK(codes(findings()) == Codes{});
+  project.projectors[0].exposure_ms = 0.4;
+  REQUIRE(codes(findings()) == Codes{"schedule.bit-depth"});
+  CHECK(findings()[0].where == "/projectors/0/exposure_ms");
+  CHECK(findings()[0].remedy == std::vector<Edit>{{Edit::Kind::set, "projectors", "main", "exposure_ms", 0.45}});
+}
+
+TEST_CASE("a model that nobody described") {
+  Project project = quiet_project();
+  project.projectors[0].model = "my own/projector";
+  std::vector<Finding> findings = check_of(project);
+  REQUIRE(codes(findings) == Codes{"projector.unknown-model"});
+  CHECK(findings[0].severity == Severity::warning);
+  CHECK(findings[0].where == "/projectors/0/model");
+  CHECK(findings[0].message.find("models/my-own-projector.json") != std::string::npos);
+  CHECK(findings[0].message.find("dynaflash, lightcrafter4500") != std::string::npos);
+  CHECK(findings[0].remedy.empty());
+  project.projectors[0].model = "Dyna-Flash";
+  findings = check_of(project);
+  REQUIRE(findings.size() == 1);
+  CHECK(findings[0].remedy == std::vector<Edit>{{Edit::Kind::set, "projectors", "main", "model", "dynaflash"}});
+}
+
+TEST_CASE("another lattice of pixels than the model's") {
+  Project project = quiet_project();
+  project.projectors[0].pixel_layout = PixelLayout::diamond;
+  const std::vector<Finding> findings = check_of(project);
+  REQUIRE(codes(findings) == Codes{"projector.pixel-layout"});
+  CHECK(findings[0].where == "/projectors/0/pixel_layout");
+  CHECK(findings[0].remedy == std::vector<Edit>{{Edit::Kind::set, "projectors", "main", "pixel_layout", "square"}});
+}
+
+TEST_CASE("optimal slices on a diamond lattice") {
+  Project project = quiet_project();
+  project.slices.assignment = Assignment::optimal;
   CHECK(codes(check_of(project)) == Codes{});
+  project.projectors[0].pixel_layout = PixelLayout::diamond;
+  const std::vector<Finding> findings = check_of(project);
+  REQUIRE(count(findings, "slices.optimal-lattice") == 1);
+  CHECK(findings.back().where == "/slices/assignment");
+  CHECK(findings.back().remedy == std::vector<Edit>{{Edit::Kind::set, "slices", "", "assignment", "linear"}});
 }
 
 TEST_CASE("colour takes three exposures") {

@@ -7,6 +7,7 @@
 #include "core/check/check.h"
 #include "core/optics/image_plan.h"
 #include "core/schedule/schedule.h"
+#include "tests/support/models.h"
 
 namespace focalstage::testing {
 
@@ -31,7 +32,7 @@ inline Project quiet_project() {
 }
 
 inline std::vector<Finding> check_of(const Project& project, const Measured& measured = {}) {
-  return check(project, make_schedule(project, image_plan(project)), measured);
+  return check(project, make_schedule(project, image_plan(project)), measured, support::models());
 }
 
 inline std::vector<std::string> codes(const std::vector<Finding>& findings) {

@@ -79,9 +79,9 @@ TEST_CASE("a sweep moves as a whole: its edits can be applied one after the othe
 TEST_CASE("each limit that fails is a finding with its amount; what is possible instead is its remedy") {
   Project project = quiet_project();
   project.projectors[0].frames_per_second = 1000;
-  const SolveResult result = solve(project, needs_from(-1.0, 1.0), {}, projector_models());
+  const SolveResult result = solve(project, needs_from(-1.0, 1.0), {}, support::models());
   REQUIRE_FALSE(result.rig);
-  const auto nearest = nearest_proposals(project, result, projector_models());
+  const auto nearest = nearest_proposals(project, result, support::models());
   REQUIRE_FALSE(nearest.empty());
   const std::vector<Finding> findings = solve_findings(project, result, nearest);
   REQUIRE(findings.size() == result.troubles.size());
@@ -112,17 +112,17 @@ TEST_CASE("every kind of limit has words, a code and a place") {
 
 TEST_CASE("errors that remain after some edits, those of the edits themselves too") {
   const Project project = quiet_project();
-  CHECK(errors_after(project, {}, projector_models()).empty());
+  CHECK(errors_after(project, {}, support::models()).empty());
   const std::vector<Edit> wide{{Edit::Kind::set, "slices", "", "powers_d", Value(Value::Array{-1.45, 0.0})}};
-  CHECK_FALSE(errors_after(project, wide, projector_models()).empty());
+  CHECK_FALSE(errors_after(project, wide, support::models()).empty());
   const std::vector<Edit> wrong{{Edit::Kind::set, "objects", "nobody", "scale", 2.0}};
-  REQUIRE(errors_after(project, wrong, projector_models()).size() == 1);
-  CHECK(errors_after(project, wrong, projector_models())[0].message.find("nobody") != std::string::npos);
+  REQUIRE(errors_after(project, wrong, support::models()).size() == 1);
+  CHECK(errors_after(project, wrong, support::models())[0].message.find("nobody") != std::string::npos);
 }
 
 TEST_CASE("a proposal in words: slices, sweep, errors") {
   const Project project = quiet_project();
-  const SolveResult result = solve(project, needs_from(-1.0, 1.0), {}, projector_models());
+  const SolveResult result = solve(project, needs_from(-1.0, 1.0), {}, support::models());
   REQUIRE(result.rig);
   std::string all;
   for (const std::string& line : proposal_words(project, result)) all += line + "\n";

@@ -11,6 +11,7 @@
 #include "core/schedule/slots.h"
 #include "core/schedule/solve_attempt.h"
 #include "tests/support/chance.h"
+#include "tests/support/models.h"
 
 using namespace focalstage;
 using Limit = SolveTrouble::Limit;
@@ -53,7 +54,7 @@ Needs needs_at(const std::vector<double>& powers_d) {
 }
 
 SolveResult solved(const Project& project, const Needs& needs, const SolveWishes& wishes = {}) {
-  return solve(project, needs, wishes, projector_models());
+  return solve(project, needs, wishes, support::models());
 }
 
 /// The proposal as the scheduler sees it.
@@ -440,12 +441,12 @@ TEST_CASE("needs as far as needs go: an answer within the bound") {
 
 TEST_CASE("a bound that is too small, and a stop, are said") {
   const Needs needs = needs_from(-1.0, 1.0);
-  const SolveResult bounded = solve(rig(), needs, {}, projector_models(), {100, {}});
+  const SolveResult bounded = solve(rig(), needs, {}, support::models(), {100, {}});
   CHECK_FALSE(bounded.rig);
   CHECK(find(bounded, Limit::gave_up));
   std::stop_source stop;
   stop.request_stop();
-  const SolveResult stopped = solve(rig(), needs, {}, projector_models(), {1'000'000, stop.get_token()});
+  const SolveResult stopped = solve(rig(), needs, {}, support::models(), {1'000'000, stop.get_token()});
   CHECK_FALSE(stopped.rig);
   CHECK(find(stopped, Limit::stopped));
 }

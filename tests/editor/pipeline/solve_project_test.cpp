@@ -12,6 +12,7 @@
 #include "editor/pipeline/measure_needs.h"
 #include "editor/pipeline/source.h"
 #include "tests/support/chance.h"
+#include "tests/support/models.h"
 
 using namespace focalstage;
 
@@ -27,7 +28,15 @@ std::vector<std::filesystem::path> samples() {
 }
 
 Result<SolveReport> solved(const Project& project, const Assets& assets = {}, const SolveWishes& wishes = {}) {
-  return solve_project(project, assets, wishes, [](double, const std::string&) {}, {});
+  return solve_project(project, assets, support::models(), wishes, [](double, const std::string&) {}, {});
+}
+
+/// A project of primitives alone.
+Source source_of(const Project& project) {
+  Source source;
+  source.project = project;
+  source.models = support::models();
+  return source;
 }
 
 /// A small projector before a screen, and an object.
@@ -59,7 +68,7 @@ Project small_room() {
 }
 
 std::vector<Finding> planned(const Project& project) {
-  return planned_findings(project, time_slots(project, image_plan(project)).troubles, projector_models());
+  return planned_findings(project, time_slots(project, image_plan(project)).troubles, support::models());
 }
 
 }  // namespace
@@ -88,7 +97,7 @@ TEST_CASE("every sample: the proposal has no finding of the rules, and compiling
       const Result<Project> after = apply_all(source->project, report->edits);
       REQUIRE(after);
       CHECK_FALSE(has_error(planned(*after)));
-      const auto found = check_project(Source{*after, {}, source->loaded, {}}, {}, [](int, int) {}, {});
+      const auto found = check_project(Source{*after, {}, source->loaded, {}, source->models}, {}, [](int, int) {}, {});
       REQUIRE(found);
       CHECK_FALSE(has_error(found->findings));
       CHECK(found->findings == report->findings);
@@ -193,7 +202,7 @@ TEST_CASE("stopped at once") {
   std::stop_source stop;
   stop.request_stop();
   const auto report = solve_project(
-      small_room(), {}, {}, [](double, const std::string&) {}, stop.get_token());
+      small_room(), {}, support::models(), {}, [](double, const std::string&) {}, stop.get_token());
   REQUIRE_FALSE(report);
   CHECK(report.fault().code == "solve.cancelled");
 }
@@ -206,7 +215,7 @@ TEST_CASE("checking a project offers the solver's proposal where nothing near th
   project.slices.powers_d = {-0.2, 0.2};
   project.objects[0].placement.pose.position_m.z = -0.4;
   project.objects[0].mesh.shape = BoxMesh{{0.1, 0.1, 0.2}};
-  const auto checked = check_project(Source{project, {}, {}, {}}, {}, [](int, int) {}, {});
+  const auto checked = check_project(source_of(project), {}, [](int, int) {}, {});
   REQUIRE(checked);
   const std::vector<Finding>& findings = checked->findings;
   const auto beyond = std::find_if(findings.begin(), findings.end(),
@@ -215,7 +224,7 @@ TEST_CASE("checking a project offers the solver's proposal where nothing near th
   REQUIRE_FALSE(beyond->remedy.empty());
   const Result<Project> after = apply_all(project, beyond->remedy);
   REQUIRE(after);
-  const auto left = check_project(Source{*after, {}, {}, {}}, {}, [](int, int) {}, {});
+  const auto left = check_project(source_of(*after), {}, [](int, int) {}, {});
   REQUIRE(left);
   CHECK_FALSE(has_error(left->findings));
 }
