@@ -75,6 +75,8 @@ Projector projector_from(const Value& value) {
   read(value, "latency_ms", projector.latency_ms);
   const Value* color = value.find("color");
   if (color != nullptr && *color->text() == "rgb") projector.color = ColorMode::rgb;
+  const Value* layout = value.find("pixel_layout");
+  if (layout != nullptr && *layout->text() == "diamond") projector.pixel_layout = PixelLayout::diamond;
   return projector;
 }
 

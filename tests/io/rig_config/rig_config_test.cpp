@@ -22,7 +22,7 @@ constexpr const char* whole = R"({
   },
   "measured": {
     "projector": {"model": "lightcrafter4500", "width_px": 912, "height_px": 1140, "frames_per_second": 4225, "bits": 1,
-                  "color": "rgb", "latency_ms": 0.21},
+                  "color": "rgb", "latency_ms": 0.21, "pixel_layout": "diamond"},
     "glasses": {"lens_to_pupil_mm": 14, "lens_min_d": -3, "lens_max_d": 3.5, "lens_aperture_mm": 12,
                 "shutter_close_ms": 0.3, "shutter_open_ms": 2.5,
                 "lens_response": {"left": [{"frequency_hz": 0, "gain_d_per_a": 38},
@@ -85,6 +85,7 @@ TEST_CASE("everything the file says arrives") {
   CHECK(config.measured->projector.bits == 1);
   CHECK(config.measured->projector.color == ColorMode::rgb);
   CHECK(config.measured->projector.latency_ms == 0.21);
+  CHECK(config.measured->projector.pixel_layout == PixelLayout::diamond);
   CHECK(config.measured->glasses.lens_to_pupil_mm == 14.0);
   CHECK(config.measured->glasses.lens_range_d == std::array<double, 2>{-3.0, 3.5});
   CHECK(config.measured->glasses.lens_aperture_mm == 12.0);
