@@ -65,6 +65,11 @@ Candidates smear_candidates(const Project& project, const Finding& finding, std:
 Candidates bit_depth_candidates(const Project& project, const Finding& finding,
                                 std::span<const ProjectorModelData> models);
 
+/// The known model whose name differs by case, blanks or dashes alone; the lattice that the model has.
+Candidates model_candidates(const Project& project, const Finding& finding, std::span<const ProjectorModelData> models);
+Candidates pixel_layout_candidates(const Project& project, const Finding& finding,
+                                   std::span<const ProjectorModelData> models);
+
 // The solver ---------------------------------------------------------------------------------------------------------
 
 /// Whether the solver can have a remedy for findings of this code: what slices and sweep do not reach.
@@ -79,9 +84,6 @@ Candidates solver_candidates(const Project& project, const Measured& measured,
 Candidates depth_candidates(const Project& project, const Finding& finding, const Measured& measured);
 
 /// Focus where it stands, for an object that is told to focus elsewhere.
-Candidates model_candidates(const Project& project, const Finding& finding, std::span<const ProjectorModelData> models);
-Candidates pixel_layout_candidates(const Project& project, const Finding& finding,
-                                   std::span<const ProjectorModelData> models);
 Candidates conflict_candidates(const Project& project, const Finding& finding);
 
 }  // namespace focalstage

@@ -4,6 +4,7 @@
 
 #include "core/check/candidates.h"
 #include "core/check/words.h"
+#include "core/scene/words.h"
 #include "core/schedule/slots.h"
 
 namespace focalstage {
@@ -12,6 +13,14 @@ namespace {
 /// Whole microseconds, so that the file stays readable.
 double floor_us(double time_ms) { return std::floor(time_ms * 1000.0) / 1000.0; }
 double ceil_us(double time_ms) { return std::ceil(time_ms * 1000.0 - 1e-6) / 1000.0; }
+
+/// The projector that a finding is about.
+const Projector* projector_of(const Project& project, const Finding& finding) {
+  for (std::size_t i = 0; i < project.projectors.size(); ++i) {
+    if (finding.where.starts_with(item_pointer("projectors", i) + "/")) return &project.projectors[i];
+  }
+  return nullptr;
+}
 
 Edit projector_edit(const Projector& projector, const std::string& key, Value value) {
   return set_edit("projectors", projector.name, key, std::move(value));
@@ -99,23 +108,21 @@ Candidates smear_candidates(const Project& project, const Finding& finding,
 Candidates bit_depth_candidates(const Project& project, const Finding& finding,
                                 std::span<const ProjectorModelData> models) {
   Candidates candidates;
-  for (std::size_t i = 0; i < project.projectors.size(); ++i) {
-    const Projector& projector = project.projectors[i];
-    const ProjectorModelData* model = find_model(models, projector.model);
-    if (finding.where.rfind(item_pointer("projectors", i) + "/", 0) != 0 || model == nullptr) continue;
+  const Projector* projector = projector_of(project, finding);
+  const ProjectorModelData* model = projector == nullptr ? nullptr : find_model(models, projector->model);
+  if (model == nullptr) return candidates;
 
-    const auto fastest = fastest_rate(*model, projector.bits, projector.color);
-    if (fastest && projector.frames_per_second > *fastest) {
-      candidates.push_back({{projector_edit(projector, "frames_per_second", std::floor(*fastest))}});
-    }
-    if (fastest && projector.exposure_ms) {
-      candidates.push_back({{projector_edit(projector, "exposure_ms", ceil_us(known_exposure_ms(projector, models)))}});
-    }
-    for (int bits = std::min(projector.bits, model->rates.back().bits + 1) - 1; bits >= 1; --bits) {
-      candidates.push_back({{projector_edit(projector, "bits", bits)}});
-    }
-    if (projector.color == ColorMode::rgb) candidates.push_back({{projector_edit(projector, "color", "gray")}, true});
+  const auto fastest = fastest_rate(*model, projector->bits, projector->color);
+  if (fastest && projector->frames_per_second > *fastest) {
+    candidates.push_back({{projector_edit(*projector, "frames_per_second", std::floor(*fastest))}});
   }
+  if (fastest && projector->exposure_ms) {
+    candidates.push_back({{projector_edit(*projector, "exposure_ms", ceil_us(known_exposure_ms(*projector, models)))}});
+  }
+  for (int bits = std::min(projector->bits, model->rates.back().bits + 1) - 1; bits >= 1; --bits) {
+    candidates.push_back({{projector_edit(*projector, "bits", bits)}});
+  }
+  if (projector->color == ColorMode::rgb) candidates.push_back({{projector_edit(*projector, "color", "gray")}, true});
   return candidates;
 }
 
@@ -131,29 +138,21 @@ Candidates model_candidates(const Project& project, const Finding& finding,
     return letters;
   };
   Candidates candidates;
-  for (std::size_t i = 0; i < project.projectors.size(); ++i) {
-    const Projector& projector = project.projectors[i];
-    if (finding.where != item_pointer("projectors", i) + "/model") continue;
-    for (const ProjectorModelData& model : models) {
-      if (plain(model.name) == plain(projector.model)) {
-        candidates.push_back({{projector_edit(projector, "model", model.name)}});
-      }
-    }
+  const Projector* projector = projector_of(project, finding);
+  if (projector == nullptr) return candidates;
+  for (const ProjectorModelData& model : models) {
+    if (plain(model.name) != plain(projector->model)) continue;
+    candidates.push_back({{projector_edit(*projector, "model", model.name)}});
   }
   return candidates;
 }
 
 Candidates pixel_layout_candidates(const Project& project, const Finding& finding,
                                    std::span<const ProjectorModelData> models) {
-  Candidates candidates;
-  for (std::size_t i = 0; i < project.projectors.size(); ++i) {
-    const Projector& projector = project.projectors[i];
-    const ProjectorModelData* model = find_model(models, projector.model);
-    if (finding.where != item_pointer("projectors", i) + "/pixel_layout" || model == nullptr) continue;
-    const char* layout = model->layout == PixelLayout::diamond ? "diamond" : "square";
-    candidates.push_back({{projector_edit(projector, "pixel_layout", layout)}});
-  }
-  return candidates;
+  const Projector* projector = projector_of(project, finding);
+  const ProjectorModelData* model = projector == nullptr ? nullptr : find_model(models, projector->model);
+  if (model == nullptr) return {};
+  return {{{projector_edit(*projector, "pixel_layout", word_of(model->layout))}}};
 }
 
 }  // namespace focalstage

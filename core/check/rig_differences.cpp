@@ -6,6 +6,7 @@
 #include "core/check/candidates.h"
 #include "core/check/rules.h"
 #include "core/check/words.h"
+#include "core/scene/words.h"
 #include "core/schedule/lens_response.h"
 #include "core/schedule/schedule.h"
 #include "core/schedule/slots.h"
@@ -103,7 +104,7 @@ void check_projector(const Projector& projector, const RigValues& rig, std::vect
                         std::string("the pixels lie in ") + (diamond ? "squares" : "diamonds") +
                             " in the project and in " + (diamond ? "diamonds" : "squares") + " on the rig",
                         std::nullopt,
-                        {set_edit("projectors", projector.name, "pixel_layout", diamond ? "diamond" : "square")}});
+                        {set_edit("projectors", projector.name, "pixel_layout", word_of(rig.pixel_layout))}});
   }
 }
 

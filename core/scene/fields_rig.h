@@ -2,6 +2,7 @@
 
 #include "core/scene/fields_placement.h"
 #include "core/scene/per_eye_codec.h"
+#include "core/scene/words.h"
 
 // Viewer, glasses, sweep and projectors: what stands in the lab.
 namespace focalstage {
@@ -92,7 +93,7 @@ struct Codec<ColorMode> : WordCodec<ColorMode, ColorModeWords> {};
 
 struct PixelLayoutWords {
   static constexpr std::array<std::pair<std::string_view, PixelLayout>, 2> words{
-      {{"square", PixelLayout::square}, {"diamond", PixelLayout::diamond}}};
+      {{word_of(PixelLayout::square), PixelLayout::square}, {word_of(PixelLayout::diamond), PixelLayout::diamond}}};
 };
 template <>
 struct Codec<PixelLayout> : WordCodec<PixelLayout, PixelLayoutWords> {};

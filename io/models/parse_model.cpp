@@ -1,3 +1,4 @@
+#include "core/scene/words.h"
 #include "io/json/json.h"
 #include "io/models/models.h"
 #include "io/project/validate.h"
@@ -34,7 +35,7 @@ ProjectorModelData model_from(const Value& value) {
   model.name = text_of(value, "name");
   model.width_px = static_cast<int>(number_of(value, "width_px"));
   model.height_px = static_cast<int>(number_of(value, "height_px"));
-  if (text_of(value, "pixel_layout") == "diamond") model.layout = PixelLayout::diamond;
+  if (text_of(value, "pixel_layout") == word_of(PixelLayout::diamond)) model.layout = PixelLayout::diamond;
   if (text_of(value, "clock") == "master") model.clock = ProjectorClock::master;
   if (value.find("planes_per_frame")) model.planes_per_frame = static_cast<int>(number_of(value, "planes_per_frame"));
   for (const Value& depth : *value.find("depths")->array()) model.rates.push_back(rate_from(depth));

@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "core/scene/words.h"
+
 namespace focalstage {
 namespace {
 
@@ -61,8 +63,7 @@ void adopt_projector(const Projector& now, const Projector& rig, std::vector<Edi
   set_number("width_px", now.width_px, rig.width_px);
   set_number("height_px", now.height_px, rig.height_px);
   if (now.pixel_layout != rig.pixel_layout) {
-    const char* layout = rig.pixel_layout == PixelLayout::diamond ? "diamond" : "square";
-    edits.push_back(set("projectors", now.name, "pixel_layout", layout));
+    edits.push_back(set("projectors", now.name, "pixel_layout", word_of(rig.pixel_layout)));
   }
   set_number("bits", now.bits, rig.bits);
   set_number("latency_ms", now.latency_ms, rig.latency_ms);

@@ -1,5 +1,6 @@
 #include "io/rig_config/rig_config.h"
 
+#include "core/scene/words.h"
 #include "io/files/files.h"
 #include "io/json/json.h"
 #include "io/project/validate.h"
@@ -76,7 +77,8 @@ Projector projector_from(const Value& value) {
   const Value* color = value.find("color");
   if (color != nullptr && *color->text() == "rgb") projector.color = ColorMode::rgb;
   const Value* layout = value.find("pixel_layout");
-  if (layout != nullptr && *layout->text() == "diamond") projector.pixel_layout = PixelLayout::diamond;
+  if (layout != nullptr && *layout->text() == word_of(PixelLayout::diamond))
+    projector.pixel_layout = PixelLayout::diamond;
   return projector;
 }
 
