@@ -156,7 +156,7 @@ void Session::State::take(Document opened) {
 }
 
 void Session::State::read_models() {
-  auto known = known_models(document->folder());
+  auto known = known_models(document->folder(), folders.config);
   if (!known) {
     say(LogLine::Kind::fault, describe(known.fault()));
     known = shipped_models();

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "io/files/files.h"
-#include "io/files/user_folders.h"
 #include "io/models/shipped.h"
 
 namespace focalstage {
@@ -80,10 +79,10 @@ Result<ProjectorModels> models_in(const fs::path& folder) {
   return models;
 }
 
-Result<ProjectorModels> known_models(const fs::path& project_folder) {
+Result<ProjectorModels> known_models(const fs::path& project_folder, const fs::path& user_folder) {
   auto models = shipped_models();
   if (!models) return models;
-  std::vector<fs::path> folders{user_config_folder() / models_folder_name};
+  std::vector<fs::path> folders{user_folder / models_folder_name};
   if (!project_folder.empty()) folders.push_back(project_folder / models_folder_name);
   for (const fs::path& folder : folders) {
     auto more = models_in(folder);

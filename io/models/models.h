@@ -6,6 +6,7 @@
 
 #include "core/base/result.h"
 #include "core/schedule/projector_models.h"
+#include "io/files/user_folders.h"
 
 namespace focalstage {
 
@@ -25,10 +26,11 @@ Result<ProjectorModels> shipped_models();
 /// "model.twice" where two files describe one model.
 Result<ProjectorModels> models_in(const std::filesystem::path& folder);
 
-/// All that are known to a project: those that come with the program, then the user's own
-/// ($XDG_CONFIG_HOME/focalstage/models), then those in models/ beside the project's file. A later one takes the place
-/// of an earlier one of the same name. Without a project's folder: the first two.
-Result<ProjectorModels> known_models(const std::filesystem::path& project_folder = {});
+/// All that are known to a project: those that come with the program, then the user's own (models/ in `user_folder`),
+/// then those in models/ beside the project's file. A later one takes the place of an earlier one of the same name.
+/// Without a project's folder: the first two.
+Result<ProjectorModels> known_models(const std::filesystem::path& project_folder = {},
+                                     const std::filesystem::path& user_folder = user_config_folder());
 
 /// Takes the models beside a project along to another folder. Files that are there already stay.
 Status copy_models(const std::filesystem::path& from_folder, const std::filesystem::path& to_folder);

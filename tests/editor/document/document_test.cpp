@@ -154,8 +154,10 @@ TEST_CASE("imported files travel with the project, and a broken one changes noth
   CHECK(document->shelf().fetch(document->project()));
   CHECK(document->shelf().wanted(document->project()).empty());
   REQUIRE(document->shelf().assets().models.contains("assets/three.obj"));
+  write(document->folder() / "models" / "bench.json", "{}");
   REQUIRE(document->save_as(in.path() / "show").ok());
   CHECK(fs::exists(in.path() / "show" / "assets" / "three.obj"));
+  CHECK(fs::exists(in.path() / "show" / "models" / "bench.json"));
   document->shelf().fetch(document->project());
   CHECK(document->shelf().findings(document->project()).empty());
   fs::remove(in.path() / "show" / "assets" / "three.obj");

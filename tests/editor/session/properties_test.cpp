@@ -289,6 +289,26 @@ TEST_CASE("of several things stand the rows that all have, and differences are t
   CHECK_FALSE(row_named(unlike, "illumination"));
 }
 
+TEST_CASE("models to choose from are those that somebody described, and the one that is named already") {
+  Project project = rich_project();
+  const auto choices = [&](std::shared_ptr<const ProjectorModels> models) {
+    PropertyScope scope{project};
+    scope.models = std::move(models);
+    const auto groups = properties_of(scope, {{"projectors", "main"}});
+    std::vector<std::string> words;
+    for (const PropertyChoice& choice : row_named(groups, "model")->choices) words.push_back(choice.label);
+    return words;
+  };
+  ProjectorModels two(2);
+  two[0].name = "one";
+  two[1].name = "dynaflash";
+  const auto known = std::make_shared<const ProjectorModels>(two);
+  CHECK(choices(nullptr) == std::vector<std::string>{"dynaflash"});
+  CHECK(choices(known) == std::vector<std::string>{"one", "dynaflash"});
+  project.projectors[0].model = "abacus";
+  CHECK(choices(known) == std::vector<std::string>{"one", "dynaflash", "abacus"});
+}
+
 TEST_CASE("nothing selected shows the project") {
   const Project project = rich_project();
   const auto groups = rows_of(project, {});

@@ -334,6 +334,45 @@ TEST_CASE("what cannot be opened costs nothing of what is open") {
   CHECK(here(session, "question") == Value(""));
 }
 
+TEST_CASE("a project's models are the program's, the user's and its own; a broken file is told and costs no more") {
+  const Home home;
+  const auto model = [](const std::string& name) {
+    return R"({"focalstage_projector_model": 1, "name": ")" + name +
+           R"(", "width_px": 640, "height_px": 480, "depths": [{"bits": 8, "frames_per_second": 60}]})";
+  };
+  const auto write = [](const fs::path& file, const std::string& text) {
+    fs::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+  };
+  Session session([] {});
+  CHECK(session.models() == nullptr);
+  write(home.path() / "config" / "focalstage" / "models" / "mine.json", model("mine"));
+  open_sample(session, "first-light");
+  REQUIRE(session.models());
+  CHECK(find_model(*session.models(), "dynaflash") != nullptr);
+  CHECK(find_model(*session.models(), "mine") != nullptr);
+  CHECK(find_model(*session.models(), "its own") == nullptr);
+
+  const fs::path folder = home.path() / "show";
+  REQUIRE(session.run("file.save-as", args({{"path", folder.string()}})).ok());
+  write(folder / "models" / "own.json", model("its own"));
+  const auto open_again = [&] {
+    REQUIRE(session.run("file.close").ok());
+    const Status opened = session.run("file.open", args({{"path", folder.string()}}));
+    REQUIRE_MESSAGE(opened.ok(), describe(opened.ok() ? Fault{} : opened.fault()));
+  };
+  open_again();
+  CHECK(find_model(*session.models(), "its own") != nullptr);
+
+  write(folder / "models" / "own.json", "{");
+  open_again();
+  CHECK(find_model(*session.models(), "dynaflash") != nullptr);
+  const auto names_it = [](const LogLine& line) {
+    return line.kind == LogLine::Kind::fault && line.text.find("own.json") != std::string::npos;
+  };
+  CHECK(std::any_of(session.log().begin(), session.log().end(), names_it));
+}
+
 TEST_CASE("push to a simulated rig, play, live, blackout") {
   const Home home;
   Session session([] {});
