@@ -1,42 +1,18 @@
 #include "core/mesh/smooth_parts.h"
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
+#include "core/mesh/edges.h"
+#include "core/mesh/joined_sets.h"
 #include "core/mesh/measure.h"
 
 namespace focalstage {
 namespace {
 
-constexpr double cos_30_deg = 0.86602540378443864676;
 constexpr std::size_t most_around_an_edge = 8;  ///< more triangles than this on one edge are taken for a fold
-
-/// One triangle's side, keyed by its two welded corners, the smaller first.
-struct Side {
-  std::uint64_t edge;
-  std::uint32_t triangle;
-  bool forward;  ///< whether the triangle runs from the smaller corner to the larger
-
-  bool operator<(const Side& other) const { return edge != other.edge ? edge < other.edge : triangle < other.triangle; }
-};
-
-std::vector<Side> sorted_sides(const Mesh& mesh) {
-  const std::vector<std::uint32_t> welded = welded_indices(mesh);
-  std::vector<Side> sides;
-  sides.reserve(mesh.triangles.size() * 3);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t a = welded[mesh.triangles[i][k]];
-      const std::uint32_t b = welded[mesh.triangles[i][(k + 1) % 3]];
-      if (a == b) continue;
-      sides.push_back({std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), static_cast<std::uint32_t>(i), a < b});
-    }
-  }
-  std::sort(sides.begin(), sides.end());
-  return sides;
-}
 
 /// Unit normals; zero for a triangle without area.
 std::vector<glm::dvec3> face_normals(const Mesh& mesh) {
@@ -50,41 +26,20 @@ std::vector<glm::dvec3> face_normals(const Mesh& mesh) {
   return normals;
 }
 
-/// Sets that merge; the smallest member stands for its set.
-class Groups {
- public:
-  explicit Groups(std::size_t count) : up_(count) { std::iota(up_.begin(), up_.end(), 0u); }
-
-  std::uint32_t root(std::uint32_t i) {
-    while (up_[i] != i) i = up_[i] = up_[up_[i]];
-    return i;
-  }
-
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    up_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> up_;
-};
-
-void join_smooth_neighbours(Groups& groups, const std::vector<Side>& sides, const std::vector<glm::dvec3>& normals) {
-  for (std::size_t begin = 0; begin < sides.size();) {
-    std::size_t end = begin + 1;
-    while (end < sides.size() && sides[end].edge == sides[begin].edge) ++end;
-    for (std::size_t i = begin; end - begin <= most_around_an_edge && i < end; ++i) {
-      for (std::size_t j = i + 1; j < end; ++j) {
+void join_smooth_neighbours(JoinedSets& sets, const Edges& edges, const std::vector<glm::dvec3>& normals,
+                            double cos_fold) {
+  edges.each([&](std::span<const EdgeUse> uses) {
+    if (uses.size() > most_around_an_edge) return;
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+      for (std::size_t j = i + 1; j < uses.size(); ++j) {
         // Neighbours that wind alike run along their edge in opposite directions.
-        const double turn = sides[i].forward == sides[j].forward ? -1.0 : 1.0;
-        if (turn * glm::dot(normals[sides[i].triangle], normals[sides[j].triangle]) > cos_30_deg) {
-          groups.join(sides[i].triangle, sides[j].triangle);
+        const double turn = uses[i].forward == uses[j].forward ? -1.0 : 1.0;
+        if (turn * glm::dot(normals[uses[i].triangle], normals[uses[j].triangle]) > cos_fold) {
+          sets.join(uses[i].triangle, uses[j].triangle);
         }
       }
     }
-    begin = end;
-  }
+  });
 }
 
 void measure(SmoothParts& parts, const Mesh& mesh, const glm::dmat4& world_from_mesh) {
@@ -114,18 +69,14 @@ void measure(SmoothParts& parts, const Mesh& mesh, const glm::dmat4& world_from_
 
 }  // namespace
 
-SmoothParts smooth_parts(const Mesh& mesh) {
-  Groups groups(mesh.triangles.size());
-  join_smooth_neighbours(groups, sorted_sides(mesh), face_normals(mesh));
+SmoothParts smooth_parts(const Mesh& mesh, double cos_fold) {
+  JoinedSets sets(mesh.triangles.size());
+  join_smooth_neighbours(sets, Edges(mesh), face_normals(mesh), cos_fold);
+  TriangleGroups groups = numbered(sets, mesh.triangles.size());
   SmoothParts parts;
-  parts.part_of_triangle.resize(mesh.triangles.size());
-  std::uint32_t count = 0;
-  for (std::uint32_t i = 0; i < parts.part_of_triangle.size(); ++i) {
-    const std::uint32_t root = groups.root(i);
-    parts.part_of_triangle[i] = root == i ? count++ : parts.part_of_triangle[root];
-  }
-  parts.area_m2.resize(count);
-  parts.centre_m.resize(count);
+  parts.part_of_triangle = std::move(groups.of_triangle);
+  parts.area_m2.resize(groups.count);
+  parts.centre_m.resize(groups.count);
   measure(parts, mesh, glm::dmat4(1.0));
   return parts;
 }
