@@ -12,6 +12,7 @@ find_package(TinyGLTF REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(Boost 1.74 REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(OpenMesh REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(doctest REQUIRED)
 

@@ -2,18 +2,11 @@
 
 #include <type_traits>
 
+#include "core/scene/alternatives.h"
+#include "core/scene/process_codec.h"
+
 namespace focalstage {
 namespace {
-
-/// Calls `visit` with a fresh shape of every kind.
-template <class Visit, std::size_t... I>
-void each_shape(Visit&& visit, std::index_sequence<I...>) {
-  (visit(std::variant_alternative_t<I, MeshShape>{}), ...);
-}
-template <class Visit>
-void each_shape(Visit&& visit) {
-  each_shape(visit, std::make_index_sequence<std::variant_size_v<MeshShape>>());
-}
 
 /// The shape that `value` names, fresh; nothing where the name is unknown.
 std::optional<MeshShape> named_shape(const Value& value) {
@@ -21,7 +14,7 @@ std::optional<MeshShape> named_shape(const Value& value) {
   const Value* primitive = value.find("primitive");
   if (!primitive || !primitive->text()) return std::nullopt;
   std::optional<MeshShape> named;
-  each_shape([&](const auto& shape) {
+  each_alternative<MeshShape>([&](const auto& shape) {
     constexpr std::string_view word = Table<std::remove_cvref_t<decltype(shape)>>::primitive;
     if (!word.empty() && word == *primitive->text()) named = shape;
   });
@@ -36,26 +29,11 @@ bool no_shape(Reading& reading, const Value& value) {
   const Reading::Step step(reading, "primitive");
   if (!primitive->text()) return reading.wrong_type(*primitive, "text");
   std::vector<std::string_view> words;
-  each_shape([&](const auto& shape) {
+  each_alternative<MeshShape>([&](const auto& shape) {
     constexpr std::string_view word = Table<std::remove_cvref_t<decltype(shape)>>::primitive;
     if (!word.empty()) words.push_back(word);
   });
   return not_one_of(reading, *primitive->text(), words);
-}
-
-bool read_process(Reading& reading, const Value& value, std::vector<Value>& process) {
-  const Reading::Step list(reading, "process");
-  if (!is_list(reading, value, {.most = 1000})) return false;
-  for (const Value& item : *value.array()) {
-    const Reading::Step step(reading, process.size());
-    if (!item.object()) return reading.wrong_type(item, "an object");
-    const Value* name = item.find("step");
-    if (!name || !name->text()) {
-      return reading.fail_at("step", "project.missing", "is no name of a step", "name the step: {\"step\": ..}");
-    }
-    process.push_back(item);
-  }
-  return true;
 }
 
 }  // namespace
@@ -72,7 +50,10 @@ bool Codec<MeshSource>::read(Reading& reading, const Value& value, MeshSource& o
   std::vector<std::string_view> known{"primitive", "process"};
   if (!std::visit([&](auto& s) { return read_fields(reading, value, s, known); }, out.shape)) return false;
   const Value* process = value.find("process");
-  if (process && !read_process(reading, *process, out.process)) return false;
+  if (process) {
+    const Reading::Step list(reading, "process");
+    if (!Codec<std::vector<ProcessStep>>::read(reading, *process, out.process, {.most = 1000})) return false;
+  }
   keep_unknown(reading, value, known, out.unknown);
   return true;
 }
@@ -86,15 +67,15 @@ Value Codec<MeshSource>::write(const MeshSource& mesh) {
         write_fields(object, shape);
       },
       mesh.shape);
-  if (!mesh.process.empty()) object.emplace_back("process", Value(mesh.process));
+  if (!mesh.process.empty()) object.emplace_back("process", Codec<std::vector<ProcessStep>>::write(mesh.process));
   write_unknown(object, mesh.unknown);
   return Value(std::move(object));
 }
 
 void Codec<MeshSource>::keys(KeyList& list) {
   list.add("primitive", [](KeyList&) {});
-  each_shape([&](const auto& shape) { list_fields<std::remove_cvref_t<decltype(shape)>>(list); });
-  list.add("process", [](KeyList& process) { process.each([](KeyList& item) { item.add("step", [](KeyList&) {}); }); });
+  each_alternative<MeshShape>([&](const auto& shape) { list_fields<std::remove_cvref_t<decltype(shape)>>(list); });
+  list.add("process", [](KeyList& process) { process.each([](KeyList& item) { Codec<ProcessStep>::keys(item); }); });
 }
 
 std::vector<std::string_view> shape_keys(const Value& value) {

@@ -12,6 +12,7 @@
 
 #include "core/base/rigid.h"
 #include "core/base/sides.h"
+#include "core/scene/process.h"
 #include "core/scene/value.h"
 
 namespace focalstage {
@@ -186,7 +187,7 @@ using MeshShape = std::variant<FileMesh, PlaneMesh, BoxMesh, SphereMesh, CornerM
 
 struct MeshSource {
   MeshShape shape = PlaneMesh{};
-  std::vector<Value> process;  ///< `{"step": ...}` each
+  std::vector<ProcessStep> process;
   Unknown unknown{};
   bool operator==(const MeshSource&) const = default;
 };

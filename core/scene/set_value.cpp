@@ -4,6 +4,7 @@
 
 #include "core/scene/mesh_codec.h"
 #include "core/scene/pointer.h"
+#include "core/scene/process_codec.h"
 
 namespace focalstage {
 namespace {
@@ -66,6 +67,15 @@ void drop_former_shape(Value& item, const Steps& steps) {
   for (const std::string_view key : shape_keys(*mesh)) mesh->erase(key);
 }
 
+void drop_former_step(Value& item, const Steps& steps) {
+  if (steps.size() != 4 || steps[0] != "mesh" || steps[1] != "process" || steps[3] != "step") return;
+  Value* mesh = item.find("mesh");
+  Value* process = mesh ? mesh->find("process") : nullptr;
+  Value* step = process ? enter(*process, steps[2], "") : nullptr;
+  if (!step) return;
+  for (const std::string_view key : step_keys(*step)) step->erase(key);
+}
+
 void drop_former_appearance(Value& item, const Steps& steps) {
   if (steps.size() < 2 || steps[0] != "appearance") return;
   Value* appearance = item.find("appearance");
@@ -82,6 +92,7 @@ Status set_value(Value& item, const std::string& key, const Value& value) {
   part_the_eyes(item, steps);
   if (!value.is_null()) {
     drop_former_shape(item, steps);
+    drop_former_step(item, steps);
     drop_former_appearance(item, steps);
   }
   Value* here = &item;

@@ -4,6 +4,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "core/process/process.h"
 #include "core/stage/animation.h"
 #include "core/stage/finish.h"
 #include "core/stage/interpolate.h"
@@ -26,15 +27,27 @@ Finish finish_for(Look look, const Material* material, const Setting& setting) {
   return look == nullptr ? Finish{} : finish_of(*look, material, setting.has_lights);
 }
 
-std::vector<Drawable> model_drawables(const Model& model, const glm::dmat4& world_from_thing, Look look,
-                                      const Setting& setting) {
+/// What the source's steps make of a mesh of it.
+Result<std::shared_ptr<const Mesh>> finished(const MeshSource& source, const std::shared_ptr<const Mesh>& mesh) {
+  Result<std::shared_ptr<const Mesh>> made = processed_once(mesh, source.process);
+  if (made) return made;
+  Fault fault = made.fault();
+  fault.where = "/process" + fault.where;
+  return fault;
+}
+
+Result<std::vector<Drawable>> model_drawables(const Model& model, const MeshSource& source,
+                                              const glm::dmat4& world_from_thing, Look look, const Setting& setting) {
   const std::vector<glm::dmat4> thing_from_node = model_from_nodes(model, poses_at(model, setting.time_s));
   std::vector<Drawable> drawables;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     for (const ModelPart& part : model.nodes[i].parts) {
       const Material* material =
           part.material < 0 ? nullptr : &model.materials[static_cast<std::size_t>(part.material)];
-      drawables.push_back({part.mesh, world_from_thing * thing_from_node[i], finish_for(look, material, setting)});
+      Result<std::shared_ptr<const Mesh>> mesh = finished(source, part.mesh);
+      if (!mesh) return mesh.fault();
+      drawables.push_back(
+          {*std::move(mesh), world_from_thing * thing_from_node[i], finish_for(look, material, setting)});
     }
   }
   return drawables;
@@ -42,17 +55,13 @@ std::vector<Drawable> model_drawables(const Model& model, const glm::dmat4& worl
 
 Result<std::vector<Drawable>> drawables_of(const MeshSource& source, const glm::dmat4& world_from_thing, Look look,
                                            const Setting& setting) {
-  if (!source.process.empty()) {
-    return Fault{"stage.process-unknown", "/process/0", "this version knows no processing steps for meshes",
-                 "remove `process`"};
-  }
   if (const auto* file = std::get_if<FileMesh>(&source.shape)) {
     const auto found = setting.assets.models.find(file->file);
     if (found == setting.assets.models.end() || !found->second) {
       return Fault{"stage.asset-missing", "/file", "the file " + file->file + " is not among the loaded assets",
                    "put it beside the project"};
     }
-    return model_drawables(*found->second, world_from_thing, look, setting);
+    return model_drawables(*found->second, source, world_from_thing, look, setting);
   }
   Result<std::shared_ptr<const Mesh>> mesh = primitive_mesh(source.shape);
   if (!mesh) {
@@ -60,6 +69,8 @@ Result<std::vector<Drawable>> drawables_of(const MeshSource& source, const glm::
     fault.where = "/" + fault.where;
     return fault;
   }
+  mesh = finished(source, *mesh);
+  if (!mesh) return mesh.fault();
   return std::vector<Drawable>{{*mesh, world_from_thing, finish_for(look, nullptr, setting)}};
 }
 

@@ -154,11 +154,21 @@ TEST_CASE("what cannot be stood up is named by its place in the project") {
   project.objects[1].hidden = true;
   CHECK(stage(project, {}, 0.0).ok());
 
-  project.surfaces[0].mesh.process.push_back(Value(Value::Object{{"step", "smooth"}}));
+  project.surfaces[0].mesh.process = {{FlipStep{}, {}}, {KeepPartStep{3, 30.0}, {}}};
   stood = stage(project, {}, 0.0);
   REQUIRE_FALSE(stood.ok());
-  CHECK(stood.fault().code == "stage.process-unknown");
-  CHECK(stood.fault().where == "/surfaces/0/mesh/process/0");
+  CHECK(stood.fault().code == "process.no-part");
+  CHECK(stood.fault().where == "/surfaces/0/mesh/process/1/part");
+}
+
+TEST_CASE("a thing's mesh stands there after its steps, the same one in every frame") {
+  Project project;
+  project.surfaces = {surface("screen", PlaneMesh{})};
+  project.surfaces[0].mesh.process = {{FlipStep{}, {}}};
+  const Result<Stage> stood = stage(project, {}, 0.0);
+  REQUIRE(stood);
+  CHECK(stood->surfaces[0].drawables[0].mesh->normals[0].z == -1.0);
+  CHECK(stage(project, {}, 1.0)->surfaces[0].drawables[0].mesh == stood->surfaces[0].drawables[0].mesh);
 }
 
 TEST_CASE("sizes no mesh can be made of are refused") {

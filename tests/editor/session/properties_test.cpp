@@ -57,7 +57,7 @@ Project rich_project() {
   const Value unlit(Value::Object{{"unlit", Value(Value::Array{1.0, 0.5, 0.25})}});
   const Value offset(Value::Object{{"mode", "offset"}, {"vergence_d", 0.25}});
   const Value keys(Value::Array{key(0.0, 0.0), key(1.0, 0.1)});
-  const Value process(Value::Array{Value(Value::Object{{"step", "decimate"}})});
+  const Value process(Value::Array{Value(Value::Object{{"step", "decimate"}, {"triangles", 1000.0}})});
   Value with_file = object("plane");
   with_file.set("mesh", Value(Value::Object{{"file", "assets/a.glb"}, {"process", process}}));
   const auto add = [](const char* list, const char* name, Value item) { return add_edit(list, name, std::move(item)); };

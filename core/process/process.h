@@ -1,0 +1,21 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/base/result.h"
+#include "core/mesh/mesh.h"
+#include "core/scene/process.h"
+
+namespace focalstage {
+
+/// The mesh after all steps, in order. Codes "process.*": a step that cannot be done, or leaves no triangle; the place
+/// is the step in the list and its setting, "/2/rounds".
+Result<Mesh> processed(const Mesh& mesh, const std::vector<ProcessStep>& steps);
+
+/// The same, kept: the 64 last asked for are the same mesh when asked for again. Any thread; two that ask for the same
+/// at once wait for one to make it.
+Result<std::shared_ptr<const Mesh>> processed_once(const std::shared_ptr<const Mesh>& mesh,
+                                                   const std::vector<ProcessStep>& steps);
+
+}  // namespace focalstage
