@@ -4,7 +4,7 @@
 focalstage_room(core/base       LIBS glm::glm)
 focalstage_room(core/mesh       USES core/base)
 focalstage_room(core/scene      USES core/base core/mesh)
-focalstage_room(core/process    USES core/scene core/mesh          PRIVATE_LIBS OpenMeshCore OpenMeshTools)
+focalstage_room(core/process    USES core/scene core/mesh core/base          PRIVATE_LIBS OpenMeshCore OpenMeshTools)
 focalstage_room(core/stage      USES core/process core/scene core/mesh)
 focalstage_room(core/optics     USES core/stage core/scene)
 focalstage_room(core/compile    USES core/optics core/stage        PRIVATE_LIBS TBB::tbb)
@@ -15,7 +15,7 @@ focalstage_room(core/percept    USES core/retina core/schedule core/compile core
 focalstage_room(core/tracking   USES core/scene core/base)
 focalstage_room(core/study      USES core/base                     PRIVATE_LIBS Boost::headers)
 focalstage_room(core/calibrate  USES core/base                     PRIVATE_LIBS Eigen3::Eigen Boost::headers)
-focalstage_room(core/check      USES core/percept core/compile core/schedule core/optics core/scene)
+focalstage_room(core/check      USES core/process core/percept core/compile core/schedule core/optics core/scene)
 
 # io: everything that becomes bytes
 focalstage_room(io/files        USES core/base                     PRIVATE_LIBS OpenSSL::Crypto)

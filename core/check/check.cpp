@@ -32,6 +32,7 @@ std::vector<Finding> check(const Project& project, const ScheduleResult& schedul
   std::vector<Finding> findings = planned;
   append(findings, view_findings(project, measured));
   for (Finding& finding : findings) finding.remedy = remedy_for(project, finding, measured, planned, models);
+  append(findings, mesh_findings(project, measured.meshes));
   const auto order = [](const Finding& finding) { return std::tie(finding.severity, finding.code, finding.where); };
   std::stable_sort(findings.begin(), findings.end(),
                    [&](const Finding& a, const Finding& b) { return order(a) < order(b); });

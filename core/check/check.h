@@ -2,25 +2,39 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/compile/coverage.h"
 #include "core/compile/frame.h"
 #include "core/optics/needs.h"
 #include "core/percept/conflict_meter.h"
+#include "core/process/report.h"
 #include "core/scene/finding.h"
 #include "core/scene/project.h"
 #include "core/schedule/projector_models.h"
 #include "core/schedule/schedule.h"
+#include "core/stage/stage.h"
 
 namespace focalstage {
+
+/// What is wrong with the meshes of a thing.
+struct ThingFlaws {
+  std::string list;  ///< "surfaces" or "objects"
+  std::size_t index = 0;
+  std::vector<MeshFlaw> flaws;
+};
+
+/// Of the things whose mesh comes from a file, as they stand after their steps. Primitives are as they are meant to be.
+std::vector<ThingFlaws> mesh_flaws(const Project& project, const Stage& stage);
 
 /// What was measured of a project's frames, as far as it was.
 struct Measured {
   std::vector<FrameMeasure> frames;
   std::vector<std::vector<ObjectCoverage>> coverage;  ///< per frame
   std::vector<ObjectConflict> conflicts;
-  std::optional<Needs> needs;  ///< of all frames: lets remedies come from the solver
+  std::vector<ThingFlaws> meshes;  ///< of the first frame
+  std::optional<Needs> needs;      ///< of all frames: lets remedies come from the solver
 };
 
 /// Everything wrong with a project, in a fixed order (errors first, then by code and place), each with its amount if it

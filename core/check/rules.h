@@ -28,6 +28,9 @@ std::vector<Finding> projector_findings(const Project& project, std::span<const 
 std::vector<Finding> schedule_findings(const Project& project, const std::vector<SlotTrouble>& troubles);
 std::vector<Finding> view_findings(const Project& project, const Measured& measured);
 
+/// These come with their remedies: the step that mends the mesh.
+std::vector<Finding> mesh_findings(const Project& project, const std::vector<ThingFlaws>& things);
+
 /// All of them that need nothing measured: what a remedy is tried against.
 std::vector<Finding> planned_findings(const Project& project, const std::vector<SlotTrouble>& troubles,
                                       std::span<const ProjectorModelData> models);

@@ -13,7 +13,7 @@ namespace focalstage {
 /// is the step in the list and its setting, "/2/rounds".
 Result<Mesh> processed(const Mesh& mesh, const std::vector<ProcessStep>& steps);
 
-/// The same, kept: the 64 last asked for are the same mesh when asked for again. Any thread; two that ask for the same
+/// The same, kept: the 32 last asked for are the same mesh when asked for again. Any thread; two that ask for the same
 /// at once wait for one to make it.
 Result<std::shared_ptr<const Mesh>> processed_once(const std::shared_ptr<const Mesh>& mesh,
                                                    const std::vector<ProcessStep>& steps);

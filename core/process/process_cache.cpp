@@ -1,63 +1,45 @@
-#include <algorithm>
-#include <list>
-#include <mutex>
-
+#include "core/base/made_once.h"
 #include "core/process/process.h"
+#include "core/process/report.h"
 
 namespace focalstage {
 
 namespace {
 
-/// What was made of meshes that still live. Entries hold their mesh, so that no other can come to its address.
-class Cache {
- public:
-  Result<std::shared_ptr<const Mesh>> find_or_make(const std::shared_ptr<const Mesh>& mesh,
-                                                   const std::vector<ProcessStep>& steps) {
-    const std::shared_ptr<Entry> entry = find_or_add(mesh, steps);
-    const std::scoped_lock lock(entry->making);
-    if (!entry->made) {
-      Result<Mesh> made = processed(*mesh, steps);
-      entry->made = made ? Made(std::make_shared<const Mesh>(*std::move(made))) : Made(made.fault());
-    }
-    return *entry->made;
-  }
+// A key holds its mesh, so that no other can come to its address meanwhile.
+struct ProcessKey {
+  std::shared_ptr<const Mesh> mesh;
+  std::vector<ProcessStep> steps;
 
- private:
-  using Made = Result<std::shared_ptr<const Mesh>>;
-  struct Entry {
-    std::shared_ptr<const Mesh> mesh;
-    std::vector<ProcessStep> steps;
-    std::mutex making;
-    std::optional<Made> made;
-  };
-  static constexpr std::size_t most_entries = 64;
-
-  std::shared_ptr<Entry> find_or_add(const std::shared_ptr<const Mesh>& mesh, const std::vector<ProcessStep>& steps) {
-    const std::scoped_lock lock(mutex_);
-    const auto found =
-        std::ranges::find_if(entries_, [&](const auto& entry) { return entry->mesh == mesh && entry->steps == steps; });
-    if (found != entries_.end()) {
-      entries_.splice(entries_.begin(), entries_, found);
-    } else {
-      entries_.push_front(std::make_shared<Entry>());
-      entries_.front()->mesh = mesh;
-      entries_.front()->steps = steps;
-      if (entries_.size() > most_entries) entries_.pop_back();
-    }
-    return entries_.front();
-  }
-
-  std::mutex mutex_;
-  std::list<std::shared_ptr<Entry>> entries_;  ///< the last used first
+  bool operator==(const ProcessKey&) const = default;
 };
+
+constexpr std::size_t most_kept = 32;
 
 }  // namespace
 
 Result<std::shared_ptr<const Mesh>> processed_once(const std::shared_ptr<const Mesh>& mesh,
                                                    const std::vector<ProcessStep>& steps) {
+  using Made = Result<std::shared_ptr<const Mesh>>;
   if (steps.empty()) return mesh;
-  static Cache cache;
-  return cache.find_or_make(mesh, steps);
+  static MadeOnce<ProcessKey, Made> kept(most_kept);
+  return kept.find_or_make({mesh, steps}, [&]() -> Made {
+    Result<Mesh> made = processed(*mesh, steps);
+    if (!made) return made.fault();
+    return std::make_shared<const Mesh>(*std::move(made));
+  });
+}
+
+std::vector<MeshFlaw> flaws_once(const std::shared_ptr<const Mesh>& mesh) {
+  static MadeOnce<std::shared_ptr<const Mesh>, std::vector<MeshFlaw>> kept(most_kept);
+  return kept.find_or_make(mesh, [&] {
+    std::vector<MeshFlaw> flaws = flaws_of(report_mesh(*mesh));
+    for (MeshFlaw& flaw : flaws) {
+      const Result<Mesh> mended = processed(*mesh, {{*flaw.step, {}}});
+      if (!mended || count_of(flaw.code, flaws_of(report_mesh(*mended))) >= flaw.count) flaw.step.reset();
+    }
+    return flaws;
+  });
 }
 
 }  // namespace focalstage

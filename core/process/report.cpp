@@ -94,4 +94,9 @@ std::vector<MeshFlaw> flaws_of(const MeshReport& report) {
   return flaws;
 }
 
+double count_of(const std::string& code, const std::vector<MeshFlaw>& flaws) {
+  const auto found = std::ranges::find(flaws, code, &MeshFlaw::code);
+  return found == flaws.end() ? 0.0 : found->count;
+}
+
 }  // namespace focalstage

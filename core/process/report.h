@@ -1,12 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/mesh/measure.h"
 #include "core/mesh/mesh.h"
-#include "core/scene/finding.h"
 #include "core/scene/process.h"
 
 namespace focalstage {
@@ -37,11 +38,18 @@ struct MeshFlaw {
   std::string code;  ///< "mesh.*"
   std::string message;
   double count = 0.0;
-  ProcessKind step;
+  std::optional<ProcessKind> step;
 };
 
 /// What is wrong, in the order in which it is to be mended. Holes may be wanted, and what has been cut looks like one:
 /// a flaw is a matter of the designer.
 std::vector<MeshFlaw> flaws_of(const MeshReport& report);
+
+/// How much of that is among the flaws.
+double count_of(const std::string& code, const std::vector<MeshFlaw>& flaws);
+
+/// The flaws of a mesh, kept as `processed_once` keeps, and each held to its promise: where its step leaves as much
+/// wrong as there was (bodies that touch along an edge have no fin), there is none.
+std::vector<MeshFlaw> flaws_once(const std::shared_ptr<const Mesh>& mesh);
 
 }  // namespace focalstage

@@ -15,6 +15,7 @@
 #include "core/percept/conflict_meter.h"
 #include "core/schedule/schedule.h"
 #include "core/stage/stage.h"
+#include "io/assets/assets.h"
 #include "io/project/project_file.h"
 #include "tests/support/models.h"
 
@@ -30,17 +31,20 @@ Project load(const std::string& code) {
   return loaded->project;
 }
 
-/// All that `compile` finds: every frame staged, compiled and looked at. The projects hold primitives alone.
+/// All that `compile` finds: every frame staged, compiled and looked at.
 std::vector<Finding> findings_of(const Project& project) {
   const CompileSettings settings = compile_settings(project);
   Compiler compiler(settings, 1);
   CoverageMeter meter(settings.projector, settings.lens_to_pupil_m, project.glasses.lens_aperture_mm / 1000.0);
   const Schedule schedule = make_schedule(project, settings.images).schedule;
   ConflictMeter conflict(project, settings, schedule);
+  const Result<LoadedAssets> loaded = load_assets(project, folder / project.name);
+  REQUIRE(loaded);
   Measured measured;
   for (int frame = 0; frame < project.frames.count; ++frame) {
-    const Result<Stage> staged = stage(project, Assets{}, frame / project.frames.rate_hz);
+    const Result<Stage> staged = stage(project, loaded->assets, frame / project.frames.rate_hz);
     REQUIRE(staged.ok());
+    if (frame == 0) measured.meshes = mesh_flaws(project, *staged);
     Result<CompiledFrame> compiled = compiler.frame(*staged);
     REQUIRE(compiled.ok());
     measured.frames.push_back(compiled->measure);
@@ -116,6 +120,13 @@ TEST_CASE("projector.defocus") { check_code("projector.defocus", Severity::warni
 TEST_CASE("projector.unknown-model") { check_code("projector.unknown-model", Severity::warning, true, false); }
 TEST_CASE("projector.pixel-layout") { check_code("projector.pixel-layout", Severity::warning, true, false); }
 TEST_CASE("slices.optimal-lattice") { check_code("slices.optimal-lattice", Severity::warning, true, false); }
+TEST_CASE("mesh.winding") { check_code("mesh.winding", Severity::warning, true); }
+TEST_CASE("mesh.inside-out") { check_code("mesh.inside-out", Severity::warning, true); }
+TEST_CASE("mesh.repeated") { check_code("mesh.repeated", Severity::warning, true); }
+TEST_CASE("mesh.forks") { check_code("mesh.forks", Severity::warning, true); }
+TEST_CASE("mesh.holes") { check_code("mesh.holes", Severity::info, true); }
+TEST_CASE("mesh.bits") { check_code("mesh.bits", Severity::info, true); }
+TEST_CASE("mesh.no-area") { check_code("mesh.no-area", Severity::info, true); }
 
 TEST_CASE("rig.differs") {
   const Project project = load("rig.differs");
@@ -156,7 +167,14 @@ TEST_CASE("every project here belongs to a test, and every code of the design to
                                        "view.conflict",
                                        "projector.unknown-model",
                                        "projector.pixel-layout",
-                                       "slices.optimal-lattice"};
+                                       "slices.optimal-lattice",
+                                       "mesh.winding",
+                                       "mesh.inside-out",
+                                       "mesh.repeated",
+                                       "mesh.forks",
+                                       "mesh.holes",
+                                       "mesh.bits",
+                                       "mesh.no-area"};
   std::set<std::string> found;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     if (entry.is_directory()) found.insert(entry.path().filename().string());

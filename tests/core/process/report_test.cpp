@@ -22,7 +22,7 @@ Mesh mended(Mesh mesh) {
   for (int clicks = 0; clicks < 10; ++clicks) {
     const auto flaws = flaws_of(report_mesh(mesh));
     if (flaws.empty()) return mesh;
-    const auto made = processed(mesh, {{flaws.front().step, {}}});
+    const auto made = processed(mesh, {{*flaws.front().step, {}}});
     REQUIRE(made);
     mesh = *made;
   }
