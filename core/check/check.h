@@ -18,23 +18,27 @@
 
 namespace focalstage {
 
-/// What is wrong with the meshes of a thing.
-struct ThingFlaws {
+/// How the meshes of a thing are.
+struct MeshState {
   std::string list;  ///< "surfaces" or "objects"
   std::size_t index = 0;
   std::vector<MeshFlaw> flaws;
+  glm::dvec3 size_m{0.0};  ///< of the box around it, along the room's axes
 };
 
 /// Of the things whose mesh comes from a file, as they stand after their steps. Primitives are as they are meant to be.
-std::vector<ThingFlaws> mesh_flaws(const Project& project, const Stage& stage);
+std::vector<MeshState> mesh_states(const Project& project, const Stage& stage);
+
+/// What is wrong with them, each with the step, or the scale, that mends it.
+std::vector<Finding> mesh_findings(const Project& project, const std::vector<MeshState>& things);
 
 /// What was measured of a project's frames, as far as it was.
 struct Measured {
   std::vector<FrameMeasure> frames;
   std::vector<std::vector<ObjectCoverage>> coverage;  ///< per frame
   std::vector<ObjectConflict> conflicts;
-  std::vector<ThingFlaws> meshes;  ///< of the first frame
-  std::optional<Needs> needs;      ///< of all frames: lets remedies come from the solver
+  std::vector<MeshState> meshes;  ///< of the first frame
+  std::optional<Needs> needs;     ///< of all frames: lets remedies come from the solver
 };
 
 /// Everything wrong with a project, in a fixed order (errors first, then by code and place), each with its amount if it

@@ -47,9 +47,9 @@ std::string several(std::size_t count, const std::string& one, const std::string
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-std::string millimetres(double length_m) {
+std::string length_text(double length_m) {
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g mm", length_m * 1e3);
+  std::snprintf(text, sizeof text, length_m < 1.0 ? "%.3g mm" : "%.3g m", length_m < 1.0 ? length_m * 1e3 : length_m);
   return text;
 }
 
@@ -89,7 +89,7 @@ std::vector<MeshFlaw> flaws_of(const MeshReport& report) {
       several(report.bits, "loose bit is", "loose bits are") + " smaller than 1 % of the largest",
       DropBitsStep{bit_share});
   add("mesh.holes", report.holes,
-      several(report.holes, "hole", "holes") + ", the longest " + millimetres(report.longest_hole_m) + " around",
+      several(report.holes, "hole", "holes") + ", the longest " + length_text(report.longest_hole_m) + " around",
       FillHolesStep{});
   return flaws;
 }

@@ -1,6 +1,9 @@
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 
+#include "core/check/check.h"
+#include "core/stage/stage.h"
 #include "editor/cli/command_list.h"
 #include "editor/cli/output.h"
 #include "io/assets/assets.h"
@@ -13,24 +16,49 @@ struct Options {
   bool json = false;
 };
 
-void print_report(const ImportReport& found) {
+/// The file as the only thing of a project, to be looked at as `check` looks.
+Result<MeshState> state_of(const std::filesystem::path& file, std::vector<Finding>& findings) {
+  Project project;
+  project.objects.resize(1);
+  project.objects[0].name = file.filename().string();
+  project.objects[0].mesh.shape = FileMesh{file.filename().string()};
+  const std::filesystem::path folder = file.parent_path();
+  const auto loaded = load_assets(project, folder.empty() ? std::filesystem::path(".") : folder);
+  if (!loaded) return loaded.fault();
+  const auto stood = stage(project, loaded->assets, 0.0);
+  if (!stood) return stood.fault();
+  const std::vector<MeshState> states = mesh_states(project, *stood);
+  for (Finding& finding : mesh_findings(project, states)) {
+    finding.where = project.objects[0].name;
+    finding.remedy.clear();  // belongs to a thing of a project
+    findings.push_back(std::move(finding));
+  }
+  return states.front();
+}
+
+void print_report(const ImportReport& found, const glm::dvec3& size_m) {
   Value object;
   object.set("vertices", static_cast<double>(found.vertices));
   object.set("triangles", static_cast<double>(found.triangles));
   object.set("nodes", static_cast<double>(found.nodes));
   object.set("animations", static_cast<double>(found.animations));
+  object.set("size_m", Value(Value::Array{size_m.x, size_m.y, size_m.z}));
   object.set("findings", *findings_value(found.findings).find("findings"));
   print_json(object);
 }
 
 ExitStatus run(const Options& options) {
-  const auto found = inspect_asset(options.file);
+  auto found = inspect_asset(options.file);
   if (!found) return report(found.fault());
+  const auto state = state_of(options.file, found->findings);
+  if (!state) return report(state.fault());
+  const glm::dvec3& size_m = state->size_m;
   if (options.json) {
-    print_report(*found);
+    print_report(*found, size_m);
   } else {
-    std::printf("%s: %zu vertices, %zu triangles, %zu nodes, %zu animations\n%s", options.file.c_str(), found->vertices,
-                found->triangles, found->nodes, found->animations, findings_text(found->findings).c_str());
+    std::printf("%s: %zu vertices, %zu triangles, %zu nodes, %zu animations, %.4g x %.4g x %.4g m\n%s",
+                options.file.c_str(), found->vertices, found->triangles, found->nodes, found->animations, size_m.x,
+                size_m.y, size_m.z, findings_text(found->findings).c_str());
   }
   return status_of(found->findings);
 }

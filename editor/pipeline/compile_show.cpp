@@ -85,7 +85,7 @@ Result<Measured> write_frames(const CompileJob& job, FrameRange range, FrameMake
   for (int k = 0; k < report.frames; ++k) {
     if (stop.stop_requested()) return cancelled(job);
     if (Status stood = maker.stand_up(range.begin + k); !stood) return stood.fault();
-    if (k == 0) measured.meshes = mesh_flaws(maker.project(), maker.staged());
+    if (k == 0) measured.meshes = mesh_states(maker.project(), maker.staged());
     if (writer.has_frame(k)) {
       ++report.resumed;
     } else {

@@ -44,7 +44,7 @@ std::vector<Finding> findings_of(const Project& project) {
   for (int frame = 0; frame < project.frames.count; ++frame) {
     const Result<Stage> staged = stage(project, loaded->assets, frame / project.frames.rate_hz);
     REQUIRE(staged.ok());
-    if (frame == 0) measured.meshes = mesh_flaws(project, *staged);
+    if (frame == 0) measured.meshes = mesh_states(project, *staged);
     Result<CompiledFrame> compiled = compiler.frame(*staged);
     REQUIRE(compiled.ok());
     measured.frames.push_back(compiled->measure);
@@ -120,6 +120,7 @@ TEST_CASE("projector.defocus") { check_code("projector.defocus", Severity::warni
 TEST_CASE("projector.unknown-model") { check_code("projector.unknown-model", Severity::warning, true, false); }
 TEST_CASE("projector.pixel-layout") { check_code("projector.pixel-layout", Severity::warning, true, false); }
 TEST_CASE("slices.optimal-lattice") { check_code("slices.optimal-lattice", Severity::warning, true, false); }
+TEST_CASE("mesh.size") { check_code("mesh.size", Severity::warning, true); }
 TEST_CASE("mesh.winding") { check_code("mesh.winding", Severity::warning, true); }
 TEST_CASE("mesh.inside-out") { check_code("mesh.inside-out", Severity::warning, true); }
 TEST_CASE("mesh.repeated") { check_code("mesh.repeated", Severity::warning, true); }
@@ -168,6 +169,7 @@ TEST_CASE("every project here belongs to a test, and every code of the design to
                                        "projector.unknown-model",
                                        "projector.pixel-layout",
                                        "slices.optimal-lattice",
+                                       "mesh.size",
                                        "mesh.winding",
                                        "mesh.inside-out",
                                        "mesh.repeated",
