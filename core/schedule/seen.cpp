@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/schedule/periodic.h"
+#include "core/base/periodic.h"
 
 namespace focalstage {
 namespace {

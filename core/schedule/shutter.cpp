@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/schedule/periodic.h"
+#include "core/base/periodic.h"
 
 namespace focalstage {
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "core/schedule/periodic.h"
+#include "core/base/periodic.h"
 
 namespace focalstage {
 namespace {

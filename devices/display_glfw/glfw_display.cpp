@@ -7,10 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
-#include <mutex>
 #include <thread>
 
-#include "devices/display/frame_queue.h"
+#include "devices/display/queued_display.h"
 #include "devices/roles/clock.h"
 
 namespace focalstage {
@@ -54,39 +53,22 @@ Result<GLFWmonitor*> choose_monitor(const GlfwSettings& settings) {
   return found;
 }
 
-class GlfwDisplay final : public Display {
+class GlfwDisplay final : public QueuedDisplay {
  public:
-  explicit GlfwDisplay(GlfwSettings settings) : settings_(std::move(settings)), queue_(settings_.most_waiting) {}
+  explicit GlfwDisplay(GlfwSettings settings) : QueuedDisplay(settings.most_waiting), settings_(std::move(settings)) {}
   ~GlfwDisplay() override { close(); }
 
-  Status open() override {
-    const std::lock_guard lock(opening_);
-    if (thread_.joinable() && !queue_.report().fault) return {};
-    end();
-    std::promise<Status> opened;
-    std::future<Status> result = opened.get_future();
-    thread_ =
-        std::jthread([this, promise = std::move(opened)](const std::stop_token& stop) mutable { run(stop, promise); });
-    const Status status = result.get();
-    if (!status) end();
-    return status;
-  }
-
-  void close() override {
-    const std::lock_guard lock(opening_);
-    end();
-  }
-
   VideoMode mode() const override { return {settings_.width_px, settings_.height_px, 1.0 / settings_.rate_hz}; }
-  Status post(VideoFrame frame) override { return queue_.post(std::move(frame)); }
-  std::size_t waiting() const override { return queue_.waiting(); }
-  void black() noexcept override { queue_.forget(); }
-  DisplayReport report() const override { return queue_.report(); }
 
  private:
-  void end() {
-    queue_.close();
-    thread_ = {};
+  /// A window belongs to the thread that draws in it.
+  Result<std::jthread> take() override {
+    std::promise<Status> opened;
+    std::future<Status> result = opened.get_future();
+    std::jthread thread(
+        [this, promise = std::move(opened)](const std::stop_token& stop) mutable { run(stop, promise); });
+    if (const Status status = result.get(); !status) return status.fault();
+    return thread;
   }
 
   void run(const std::stop_token& stop, std::promise<Status>& opened) {
@@ -160,9 +142,6 @@ class GlfwDisplay final : public Display {
   }
 
   GlfwSettings settings_;
-  FrameQueue queue_;
-  std::mutex opening_;
-  std::jthread thread_;
 };
 
 }  // namespace

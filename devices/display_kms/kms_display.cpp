@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "devices/display/frame_queue.h"
+#include "devices/display/queued_display.h"
 #include "devices/roles/clock.h"
 
 namespace focalstage {
@@ -15,16 +15,19 @@ namespace {
 constexpr int most_wait_ms = 100;         ///< for a vblank, before the output counts as lost
 constexpr double between_looks_s = 0.25;  ///< at the connector
 
-class KmsDisplay final : public Display {
+class KmsDisplay final : public QueuedDisplay {
  public:
   KmsDisplay(KmsSettings settings, DrmCalls& drm)
-      : settings_(std::move(settings)), drm_(drm), queue_(settings_.most_waiting) {}
+      : QueuedDisplay(settings.most_waiting), settings_(std::move(settings)), drm_(drm) {}
   ~KmsDisplay() override { close(); }
 
-  Status open() override {
-    const std::lock_guard lock(opening_);
-    if (thread_.joinable() && !queue_.report().fault) return {};
-    end();
+  VideoMode mode() const override {
+    const std::lock_guard lock(mode_mutex_);
+    return mode_;
+  }
+
+ private:
+  Result<std::jthread> take() override {
     Result<std::unique_ptr<KmsOutput>> output = KmsOutput::open(drm_, settings_);
     if (!output) return output.fault();
     output_ = std::move(*output);
@@ -33,30 +36,10 @@ class KmsDisplay final : public Display {
       mode_ = output_->mode();
     }
     queue_.open(static_cast<std::size_t>(settings_.width_px) * static_cast<std::size_t>(settings_.height_px));
-    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
-    return {};
+    return std::jthread([this](const std::stop_token& stop) { run(stop); });
   }
 
-  void close() override {
-    const std::lock_guard lock(opening_);
-    end();
-  }
-
-  VideoMode mode() const override {
-    const std::lock_guard lock(mode_mutex_);
-    return mode_;
-  }
-  Status post(VideoFrame frame) override { return queue_.post(std::move(frame)); }
-  std::size_t waiting() const override { return queue_.waiting(); }
-  void black() noexcept override { queue_.forget(); }
-  DisplayReport report() const override { return queue_.report(); }
-
- private:
-  void end() {
-    queue_.close();
-    thread_ = {};
-    output_.reset();
-  }
+  void give_back() override { output_.reset(); }
 
   void run(const std::stop_token& stop) {
     std::optional<std::uint32_t> before;
@@ -86,12 +69,9 @@ class KmsDisplay final : public Display {
 
   KmsSettings settings_;
   DrmCalls& drm_;
-  FrameQueue queue_;
-  std::mutex opening_;
   mutable std::mutex mode_mutex_;
   VideoMode mode_;
   std::unique_ptr<KmsOutput> output_;
-  std::jthread thread_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/periodic.h"
 #include "devices/mcc1208/packets.h"
 
 namespace focalstage {
@@ -51,13 +52,6 @@ Result<std::uint32_t> pacer_for(double period_s, const Mcc1208Settings& settings
                   "ask for that period, or set samples to a divider of this one");
   }
   return *pacer;
-}
-
-double at(const std::vector<double>& ring, double place) {
-  const double whole = std::floor(place);
-  const std::size_t i = static_cast<std::size_t>(whole) % ring.size();
-  const double part = place - whole;
-  return ring[i] + part * (ring[(i + 1) % ring.size()] - ring[i]);
 }
 
 }  // namespace
@@ -111,8 +105,8 @@ Result<Mcc1208Wave> mcc1208_wave(const DrivePeriod& period, const Mcc1208Setting
   const int high = std::clamp(static_cast<int>(std::lround(settings.sync_pulse_s * mcc_scans_per_s(*pacer))), 1,
                               settings.samples - 1);
   for (int i = 0; i < settings.samples; ++i) {
-    const double place = static_cast<double>(i) * static_cast<double>(asked_a.size()) / settings.samples;
-    const int code = mcc1208_code(at(asked_a, place), settings, wave.clamped);
+    const double drive_a = periodic_at(asked_a, static_cast<double>(i) / settings.samples);
+    const int code = mcc1208_code(drive_a, settings, wave.clamped);
     if (i == 0) wave.first_code = code;
     append_mcc_scan(wave.bytes, code, i < high ? mcc_top_code : 0);
   }

@@ -8,6 +8,7 @@
 #include "devices/plugin/drive_samples.h"
 #include "devices/plugin/library.h"
 #include "devices/plugin/plugin_seat.h"
+#include "devices/plugin/table_calls.h"
 #include "devices/roles/clock.h"
 
 namespace focalstage {
@@ -20,7 +21,15 @@ constexpr double start_s = 1.0;
 constexpr double stop_s = 0.1;
 constexpr std::int64_t clock_slack_ns = 1'000'000;
 
-focalstage_drive_device* device_of(void* device) { return static_cast<focalstage_drive_device*>(device); }
+struct DriveKind {
+  using Table = focalstage_lens_drive;
+  using Device = focalstage_drive_device;
+  using Abilities = focalstage_drive_abilities;
+  using Counts = focalstage_drive_counts;
+};
+using Calls = TableCalls<DriveKind>;
+
+focalstage_drive_device* device_of(void* device) { return Calls::device_of(device); }
 
 /// What calls that outlive the role still use.
 struct Desk {
@@ -41,35 +50,16 @@ struct Desk {
 };
 
 Result<void*> open_device(Desk& desk) {
-  const std::string library = desk.settings.plugin.library.string();
   const auto table = load_lens_drive_plugin(desk.settings.plugin.library);
   if (!table) return table.fault();
   desk.table = *table;
-  std::vector<focalstage_setting> options;
-  for (const auto& [key, value] : desk.settings.plugin.options) options.push_back({key.c_str(), value.c_str()});
-  focalstage_drive_device* device = nullptr;
-  PluginWords words{};
-  const auto count = static_cast<std::uint32_t>(options.size());
-  const std::int32_t code = desk.table->open(options.data(), count, &device, words.data());
-  if (code != FOCALSTAGE_OK) return plugin_fault(code, words, library, "plugin.unable");
-  if (device == nullptr) return Fault{"plugin.fault", library, "it opened nothing and said that all is well", ""};
-  focalstage_identity identity{};
   focalstage_drive_abilities abilities{};
-  desk.table->describe(device, &identity, &abilities);
-  if (!(abilities.most_a > 0.0)) {
-    desk.table->close(device);
-    return Fault{"plugin.abilities", library, "what it says of its currents cannot be", "this plugin is broken"};
-  }
+  const auto device = Calls::open(**table, desk.settings.plugin, abilities, "currents",
+                                  [](const focalstage_drive_abilities& said) { return said.most_a > 0.0; });
+  if (!device) return device.fault();
   const std::lock_guard lock(desk.mutex);
   desk.abilities = abilities;
-  return static_cast<void*>(device);
-}
-
-DeviceId describe_device(const Desk& desk, void* device) {
-  focalstage_identity identity{};
-  focalstage_drive_abilities abilities{};
-  desk.table->describe(device_of(device), &identity, &abilities);
-  return plugin_id(identity);
+  return static_cast<void*>(*device);
 }
 
 /// Takes what was told of the run that is under way; a Fault where that cannot be, or where there was a gap.
@@ -97,22 +87,16 @@ PluginWord ask_status(Desk& desk, void* device) {
     run = desk.run;
   }
   focalstage_drive_counts counts{};
-  PluginWord word;
-  word.code = desk.table->status(device_of(device), &counts, word.words.data());
-  word.told_ns = counts.told_ns;
-  word.temperature_c = counts.temperature_c;
+  PluginWord word = Calls::status(*desk.table, device, counts);
   if (word.code == FOCALSTAGE_OK) word.lie = take(desk, run, counts);
   return word;
 }
 
 PluginCalls calls_of(const std::shared_ptr<Desk>& desk) {
-  PluginCalls calls;
+  PluginCalls calls = Calls::of(desk);
   calls.open = [desk] { return open_device(*desk); };
-  calls.describe = [desk](void* device) { return describe_device(*desk, device); };
-  calls.identify = [desk](void* device, char* error) { return desk->table->identify(device_of(device), error); };
   calls.status = [desk](void* device) { return ask_status(*desk, device); };
   calls.make_safe = [desk](void* device) { return desk->table->stop(device_of(device)) == FOCALSTAGE_OK; };
-  calls.close = [desk](void* device) { desk->table->close(device_of(device)); };
   return calls;
 }
 

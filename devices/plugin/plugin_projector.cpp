@@ -13,6 +13,7 @@
 #include "devices/plugin/library.h"
 #include "devices/plugin/plugin_seat.h"
 #include "devices/plugin/projector_books.h"
+#include "devices/plugin/table_calls.h"
 #include "devices/roles/clock.h"
 
 namespace focalstage {
@@ -39,66 +40,51 @@ struct Desk {
   ProjectorBooks books;
 };
 
-focalstage_projector_device* device_of(void* device) { return static_cast<focalstage_projector_device*>(device); }
+struct ProjectorKind {
+  using Table = focalstage_projector;
+  using Device = focalstage_projector_device;
+  using Abilities = focalstage_projector_abilities;
+  using Counts = focalstage_projector_counts;
+};
+using Calls = TableCalls<ProjectorKind>;
+
+focalstage_projector_device* device_of(void* device) { return Calls::device_of(device); }
 
 Fault eye_safety_fault(const std::string& library) {
   return {"plugin.eye-safety", library, "nobody has vouched for the light of this projector",
           "have it measured (IEC 62471; no laser, no ultraviolet), then set eye_safe in its settings"};
 }
 
+bool believable(const focalstage_projector_abilities& said) {
+  const bool sized = said.width_px >= 1 && said.width_px <= most_px && said.height_px >= 1 && said.height_px <= most_px;
+  return sized && said.most_periods_ahead >= 2 && said.most_bits >= 1 && said.most_bits <= 8;
+}
+
 Result<void*> open_device(Desk& desk) {
-  const std::string library = desk.settings.plugin.library.string();
-  if (!desk.settings.eye_safe) return eye_safety_fault(library);
+  if (!desk.settings.eye_safe) return eye_safety_fault(desk.settings.plugin.library.string());
   const auto table = load_projector_plugin(desk.settings.plugin.library);
   if (!table) return table.fault();
   desk.table = *table;
-  std::vector<focalstage_setting> options;
-  for (const auto& [key, value] : desk.settings.plugin.options) options.push_back({key.c_str(), value.c_str()});
-  focalstage_projector_device* device = nullptr;
-  PluginWords words{};
-  const auto count = static_cast<std::uint32_t>(options.size());
-  const std::int32_t code = desk.table->open(options.data(), count, &device, words.data());
-  if (code != FOCALSTAGE_OK) return plugin_fault(code, words, library, "plugin.unable");
-  if (device == nullptr) return Fault{"plugin.fault", library, "it opened nothing and said that all is well", ""};
-  focalstage_identity identity{};
   focalstage_projector_abilities abilities{};
-  desk.table->describe(device, &identity, &abilities);
-  const bool sized = abilities.width_px >= 1 && abilities.width_px <= most_px && abilities.height_px >= 1 &&
-                     abilities.height_px <= most_px;
-  if (!sized || abilities.most_periods_ahead < 2 || abilities.most_bits < 1 || abilities.most_bits > 8) {
-    desk.table->close(device);
-    return Fault{"plugin.abilities", library, "what it says of its projector cannot be", "this plugin is broken"};
-  }
+  const auto device = Calls::open(**table, desk.settings.plugin, abilities, "projector", believable);
+  if (!device) return device.fault();
   desk.books.set_abilities(abilities);
-  return static_cast<void*>(device);
-}
-
-DeviceId describe_device(const Desk& desk, void* device) {
-  focalstage_identity identity{};
-  focalstage_projector_abilities abilities{};
-  desk.table->describe(device_of(device), &identity, &abilities);
-  return plugin_id(identity);
+  return static_cast<void*>(*device);
 }
 
 PluginWord ask_status(Desk& desk, void* device) {
   const std::uint64_t run = desk.books.run();
   focalstage_projector_counts counts{};
-  PluginWord word;
-  word.code = desk.table->status(device_of(device), &counts, word.words.data());
-  word.told_ns = counts.told_ns;
-  word.temperature_c = counts.temperature_c;
+  PluginWord word = Calls::status(*desk.table, device, counts);
   if (word.code == FOCALSTAGE_OK) word.lie = desk.books.told(run, counts, ns_of(monotonic_s()));
   return word;
 }
 
 PluginCalls calls_of(const std::shared_ptr<Desk>& desk) {
-  PluginCalls calls;
+  PluginCalls calls = Calls::of(desk);
   calls.open = [desk] { return open_device(*desk); };
-  calls.describe = [desk](void* device) { return describe_device(*desk, device); };
-  calls.identify = [desk](void* device, char* error) { return desk->table->identify(device_of(device), error); };
   calls.status = [desk](void* device) { return ask_status(*desk, device); };
   calls.make_safe = [desk](void* device) { return desk->table->blank(device_of(device)) == FOCALSTAGE_OK; };
-  calls.close = [desk](void* device) { desk->table->close(device_of(device)); };
   return calls;
 }
 

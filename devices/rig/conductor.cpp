@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "core/base/periodic.h"
+
 namespace focalstage {
 
 namespace {
@@ -24,8 +26,6 @@ Fault lost_trigger(std::uint64_t missed) {
           "look at the line between trigger board and projector, then say go"};
 }
 
-double within(double time_s, double period_s) { return time_s - period_s * std::floor(time_s / period_s); }
-
 BoardTable board_table(const Score& score, const std::vector<TableTrigger>& triggers, double pulse_s) {
   BoardTable table;
   table.period_s = score.drive.period_s;
@@ -34,8 +34,8 @@ BoardTable board_table(const Score& score, const std::vector<TableTrigger>& trig
   for (const Side eye : both_sides) {
     if (!score.shutter[eye]) continue;
     // A shutter that is open over the period's end closes in the next one.
-    const double open_s = within(score.shutter[eye]->open_s, table.period_s);
-    table.shutter[eye] = {open_s, open_s + within(score.shutter[eye]->close_s - open_s, table.period_s)};
+    const double open_s = wrapped_s(score.shutter[eye]->open_s, table.period_s);
+    table.shutter[eye] = {open_s, open_s + wrapped_s(score.shutter[eye]->close_s - open_s, table.period_s)};
   }
   return table;
 }

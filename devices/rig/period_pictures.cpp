@@ -4,6 +4,8 @@
 #include <cmath>
 #include <memory>
 
+#include "core/base/periodic.h"
+
 namespace focalstage {
 
 namespace {
@@ -18,8 +20,9 @@ Picture black_as(const Picture& other) {
 std::vector<TableTrigger> table_triggers(const Score& score) {
   std::vector<TableTrigger> triggers;
   for (std::size_t slot = 0; slot < score.trigger_s.size(); ++slot) {
-    const double periods = std::floor(score.trigger_s[slot] / score.drive.period_s);
-    triggers.push_back({score.trigger_s[slot] - periods * score.drive.period_s, slot, -static_cast<int>(periods)});
+    const double at_s = wrapped_s(score.trigger_s[slot], score.drive.period_s);
+    const long periods = std::lround((score.trigger_s[slot] - at_s) / score.drive.period_s);
+    triggers.push_back({at_s, slot, -static_cast<int>(periods)});
   }
   std::ranges::stable_sort(triggers, {}, &TableTrigger::at_s);
   return triggers;

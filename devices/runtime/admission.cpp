@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "core/base/number_words.h"
+#include "core/base/periodic.h"
 #include "core/check/check.h"
 #include "core/check/rig_differences.h"
 #include "core/schedule/lens_response.h"
-#include "core/schedule/periodic.h"
 #include "io/protocol/adopt.h"
 
 namespace focalstage {

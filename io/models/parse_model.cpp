@@ -1,5 +1,5 @@
 #include "core/scene/words.h"
-#include "io/json/json.h"
+#include "io/json/checked_value.h"
 #include "io/models/models.h"
 #include "io/project/validate.h"
 
@@ -8,37 +8,26 @@ namespace {
 
 constexpr std::size_t size_limit = 1u << 20;
 
-std::string text_of(const Value& object, std::string_view key) {
-  const Value* value = object.find(key);
-  return value ? *value->text() : std::string();
-}
-
-double number_of(const Value& object, std::string_view key) {
-  const Value* value = object.find(key);
-  return value ? *value->number() : 0.0;
-}
-
 /// Rate and exposure stand for each other where one of them is missing.
 DepthRate rate_from(const Value& value) {
   DepthRate rate;
-  rate.bits = static_cast<int>(number_of(value, "bits"));
-  rate.frames_per_second = number_of(value, "frames_per_second");
-  rate.least_exposure_ms = number_of(value, "least_exposure_ms");
+  read(value, "bits", rate.bits);
+  read(value, "frames_per_second", rate.frames_per_second);
+  read(value, "least_exposure_ms", rate.least_exposure_ms);
   if (rate.frames_per_second == 0.0) rate.frames_per_second = 1000.0 / rate.least_exposure_ms;
   if (rate.least_exposure_ms == 0.0) rate.least_exposure_ms = 1000.0 / rate.frames_per_second;
   return rate;
 }
 
-/// Of a value that the schema took: what is there has the right type.
 ProjectorModelData model_from(const Value& value) {
   ProjectorModelData model;
-  model.name = text_of(value, "name");
-  model.width_px = static_cast<int>(number_of(value, "width_px"));
-  model.height_px = static_cast<int>(number_of(value, "height_px"));
+  read(value, "name", model.name);
+  read(value, "width_px", model.width_px);
+  read(value, "height_px", model.height_px);
   if (text_of(value, "pixel_layout") == word_of(PixelLayout::diamond)) model.layout = PixelLayout::diamond;
   if (text_of(value, "clock") == "master") model.clock = ProjectorClock::master;
-  if (value.find("planes_per_frame")) model.planes_per_frame = static_cast<int>(number_of(value, "planes_per_frame"));
-  for (const Value& depth : *value.find("depths")->array()) model.rates.push_back(rate_from(depth));
+  read(value, "planes_per_frame", model.planes_per_frame);
+  model.rates = list_of<DepthRate>(value, "depths", rate_from);
   return model;
 }
 
@@ -64,17 +53,11 @@ std::optional<Fault> order_fault(const ProjectorModelData& model) {
   return std::nullopt;
 }
 
-Fault in_file(Fault fault, const std::string& source) {
-  fault.where = fault.where.empty() ? source : source + ": " + fault.where;
-  return fault;
-}
-
 }  // namespace
 
 Result<ProjectorModelData> parse_model(std::string_view text, const std::string& source) {
-  const auto value = parse_json(text, source, {size_limit, 16});
+  const auto value = parse_checked(text, source, size_limit, model_schema(), "model");
   if (!value) return value.fault();
-  if (const auto refused = schema_fault(*value, model_schema(), "model")) return in_file(*refused, source);
   ProjectorModelData model = model_from(*value);
   if (const auto wrong = order_fault(model)) return in_file(*wrong, source);
   return model;

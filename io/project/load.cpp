@@ -32,12 +32,6 @@ Result<fs::path> file_in_folder(const fs::path& folder) {
       folder, found.empty() ? "holds no *.focal file" : "holds several *.focal files, none named after the folder");
 }
 
-/// "file: /pointer"
-Fault in_file(Fault fault, const std::string& source) {
-  fault.where = fault.where.empty() ? source : source + ": " + fault.where;
-  return fault;
-}
-
 }  // namespace
 
 Result<fs::path> project_file(const fs::path& project) {

@@ -9,6 +9,7 @@
 #include <valijson/validator.hpp>
 
 #include "core/scene/pointer.h"
+#include "io/json/json.h"
 
 namespace focalstage {
 namespace {
@@ -81,6 +82,19 @@ std::optional<Fault> schema_fault(const Value& value, std::string_view schema_te
   } catch (const std::exception& error) {
     return Fault{kind + ".schema", "", std::string("cannot be held against the schema: ") + error.what(), ""};
   }
+}
+
+Fault in_file(Fault fault, const std::string& source) {
+  fault.where = fault.where.empty() ? source : source + ": " + fault.where;
+  return fault;
+}
+
+Result<Value> parse_checked(std::string_view text, const std::string& source, std::size_t most_bytes,
+                            std::string_view schema, const std::string& kind) {
+  auto value = parse_json(text, source, {most_bytes, 16});
+  if (!value) return value;
+  if (const auto refused = schema_fault(*value, schema, kind)) return in_file(*refused, source);
+  return value;
 }
 
 }  // namespace focalstage

@@ -2,7 +2,7 @@
 
 #include "core/scene/words.h"
 #include "io/files/files.h"
-#include "io/json/json.h"
+#include "io/json/checked_value.h"
 #include "io/project/validate.h"
 #include "io/rig_config/check_config.h"
 
@@ -12,24 +12,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t size_limit = 4u << 20;
-
-// Of a value that the schema took: what is there has the right type.
-
-void read(const Value& object, std::string_view key, double& into) {
-  if (const Value* value = object.find(key)) into = *value->number();
-}
-
-void read(const Value& object, std::string_view key, int& into) {
-  if (const Value* value = object.find(key)) into = static_cast<int>(*value->number());
-}
-
-void read(const Value& object, std::string_view key, bool& into) {
-  if (const Value* value = object.find(key)) into = *value->boolean();
-}
-
-void read(const Value& object, std::string_view key, std::string& into) {
-  if (const Value* value = object.find(key)) into = *value->text();
-}
 
 void read(const Value& object, std::string_view key, fs::path& into, const fs::path& folder) {
   if (const Value* value = object.find(key)) into = folder / *value->text();
@@ -54,15 +36,12 @@ DevicesConfig devices_from(const Value& value) {
   return devices;
 }
 
-std::vector<ResponsePoint> response_from(const Value& list) {
-  std::vector<ResponsePoint> points;
-  for (const Value& value : *list.array()) {
-    ResponsePoint& point = points.emplace_back();
-    read(value, "frequency_hz", point.frequency_hz);
-    read(value, "gain_d_per_a", point.gain_d_per_a);
-    read(value, "phase_deg", point.phase_deg);
-  }
-  return points;
+ResponsePoint point_from(const Value& value) {
+  ResponsePoint point;
+  read(value, "frequency_hz", point.frequency_hz);
+  read(value, "gain_d_per_a", point.gain_d_per_a);
+  read(value, "phase_deg", point.phase_deg);
+  return point;
 }
 
 Projector projector_from(const Value& value) {
@@ -74,11 +53,8 @@ Projector projector_from(const Value& value) {
   read(value, "frames_per_second", projector.frames_per_second);
   read(value, "bits", projector.bits);
   read(value, "latency_ms", projector.latency_ms);
-  const Value* color = value.find("color");
-  if (color != nullptr && *color->text() == "rgb") projector.color = ColorMode::rgb;
-  const Value* layout = value.find("pixel_layout");
-  if (layout != nullptr && *layout->text() == word_of(PixelLayout::diamond))
-    projector.pixel_layout = PixelLayout::diamond;
+  if (text_of(value, "color") == "rgb") projector.color = ColorMode::rgb;
+  if (text_of(value, "pixel_layout") == word_of(PixelLayout::diamond)) projector.pixel_layout = PixelLayout::diamond;
   return projector;
 }
 
@@ -93,8 +69,8 @@ MeasuredRig measured_from(const Value& value) {
   read(glasses, "shutter_close_ms", rig.glasses.shutter_close_ms);
   read(glasses, "shutter_open_ms", rig.glasses.shutter_open_ms);
   const Value& response = *glasses.find("lens_response");
-  rig.response.left = response_from(*response.find("left"));
-  rig.response.right = response_from(*response.find("right"));
+  rig.response.left = list_of<ResponsePoint>(response, "left", point_from);
+  rig.response.right = list_of<ResponsePoint>(response, "right", point_from);
   return rig;
 }
 
@@ -111,7 +87,7 @@ NetworkConfig network_from(const Value& value, const fs::path& folder) {
   read(value, "certificate", network.certificate, folder);
   read(value, "key", network.key, folder);
   read(value, "client_ca", network.client_ca, folder);
-  if (const Value* reflection = value.find("reflection")) network.reflection = *reflection->boolean();
+  read(value, "reflection", network.reflection);
   read(value, "push_bytes_per_s", network.push_bytes_per_s);
   read(value, "calls_per_s", network.calls_per_s);
   read(value, "message_bytes_max", network.message_bytes_max);
@@ -125,10 +101,10 @@ ClientConfig client_from(const Value& value) {
   ClientConfig client;
   read(value, "name", client.name);
   read(value, "fingerprint", client.fingerprint);
-  for (const Value& right : *value.find("rights")->array()) {
-    if (*right.text() == "watch") client.rights.watch = true;
-    if (*right.text() == "push") client.rights.push = true;
-    if (*right.text() == "control") client.rights.control = true;
+  for (const std::string& right : texts_of(value, "rights")) {
+    if (right == "watch") client.rights.watch = true;
+    if (right == "push") client.rights.push = true;
+    if (right == "control") client.rights.control = true;
   }
   return client;
 }
@@ -138,9 +114,7 @@ OscConfig osc_from(const Value& value) {
   read(value, "listen", osc.listen);
   read(value, "prefix", osc.prefix);
   read(value, "despite_lease", osc.despite_lease);
-  if (const Value* peers = value.find("peers")) {
-    for (const Value& peer : *peers->array()) osc.peers.push_back(*peer.text());
-  }
+  osc.peers = texts_of(value, "peers");
   return osc;
 }
 
@@ -158,8 +132,7 @@ RigConfig config_from(const Value& value, const fs::path& folder) {
   RigConfig config;
   if (const Value* rig = value.find("rig")) {
     read(*rig, "name", config.name);
-    const Value* kind = rig->find("kind");
-    if (kind != nullptr && *kind->text() == "devices") config.kind = RigKind::devices;
+    if (text_of(*rig, "kind") == "devices") config.kind = RigKind::devices;
   }
   if (const Value* devices = value.find("devices")) config.devices = devices_from(*devices);
   if (const Value* measured = value.find("measured")) config.measured = measured_from(*measured);
@@ -168,9 +141,7 @@ RigConfig config_from(const Value& value, const fs::path& folder) {
     read(*network, "listen", config.listen);
     config.network = network_from(*network, folder);
   }
-  if (const Value* clients = value.find("clients")) {
-    for (const Value& client : *clients->array()) config.clients.push_back(client_from(client));
-  }
+  config.clients = list_of<ClientConfig>(value, "clients", client_from);
   if (const Value* metrics = value.find("metrics")) read(*metrics, "listen", config.metrics_listen);
   if (const Value* osc = value.find("osc")) config.osc = osc_from(*osc);
   read(value, "store", config.store, folder);
@@ -178,17 +149,11 @@ RigConfig config_from(const Value& value, const fs::path& folder) {
   return config;
 }
 
-Fault in_file(Fault fault, const std::string& source) {
-  fault.where = fault.where.empty() ? source : source + ": " + fault.where;
-  return fault;
-}
-
 }  // namespace
 
 Result<RigConfig> parse_rig_config(std::string_view text, const std::string& source, const fs::path& folder) {
-  const auto value = parse_json(text, source, {size_limit, 16});
+  const auto value = parse_checked(text, source, size_limit, rig_schema(), "rig");
   if (!value) return value.fault();
-  if (const auto refused = schema_fault(*value, rig_schema(), "rig")) return in_file(*refused, source);
   RigConfig config = config_from(*value, folder);
   if (const Status sound = check_config(config); !sound) return in_file(sound.fault(), source);
   return config;

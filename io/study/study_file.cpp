@@ -1,6 +1,7 @@
 #include "io/study/study_file.h"
 
 #include "io/files/files.h"
+#include "io/json/checked_value.h"
 #include "io/json/json.h"
 #include "io/project/validate.h"
 
@@ -11,26 +12,6 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t size_limit = 1u << 20;
 constexpr int version = 1;
-
-std::string text_of(const Value& object, std::string_view key) {
-  const Value* value = object.find(key);
-  return value ? *value->text() : std::string();
-}
-
-double number_of(const Value& object, std::string_view key, double otherwise) {
-  const Value* value = object.find(key);
-  return value ? *value->number() : otherwise;
-}
-
-/// The items of a list, each made by `make`.
-template <class Item, class Make>
-std::vector<Item> list_of(const Value& object, std::string_view key, Make make) {
-  std::vector<Item> items;
-  const Value* list = object.find(key);
-  if (list == nullptr) return items;
-  for (const Value& value : *list->array()) items.push_back(make(value));
-  return items;
-}
 
 Condition condition_from(const Value& value) {
   const bool conventional = text_of(value, "variant") == name_of(ConditionVariant::conventional);
@@ -48,7 +29,7 @@ Study study_from(const Value& value) {
   Study study;
   study.name = text_of(value, "name");
   study.seed = static_cast<std::uint64_t>(number_of(value, "seed", 0.0));
-  study.participants = list_of<std::string>(value, "participants", [](const Value& item) { return *item.text(); });
+  study.participants = texts_of(value, "participants");
   study.conditions = list_of<Condition>(value, "conditions", condition_from);
   study.targets = list_of<StudyTarget>(value, "targets", target_from);
   study.repetitions = static_cast<int>(number_of(value, "repetitions", 0.0));
@@ -118,17 +99,11 @@ Value value_from(const Study& study) {
   return value;
 }
 
-Fault in_file(Fault fault, const std::string& source) {
-  fault.where = fault.where.empty() ? source : source + ": " + fault.where;
-  return fault;
-}
-
 }  // namespace
 
 Result<Study> parse_study(std::string_view text, const std::string& source) {
-  const auto value = parse_json(text, source, {size_limit, 16});
+  const auto value = parse_checked(text, source, size_limit, study_schema(), "study");
   if (!value) return value.fault();
-  if (const auto refused = schema_fault(*value, study_schema(), "study")) return in_file(*refused, source);
   Study study = study_from(*value);
   if (const Status usable = check(study); !usable) return in_file(usable.fault(), source);
   return study;

@@ -1,5 +1,5 @@
 /* A projector that swallows what it is given, by a clock of its own. Options: width, height. The smallest plugin there
- * is: begin with a copy of it. */
+ * is: begin with a copy of it, and of example.h. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "../focalstage_projector.h"
+#include "example.h"
 
 enum { periods_ahead = 3, most_exposures = 1024 };
 
@@ -28,17 +28,6 @@ struct focalstage_projector_device {
   uint64_t due;    /* exposures that came */
   uint64_t shown;
 };
-
-static int64_t now_ns(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
-}
-
-static int32_t fail(char* error, int32_t code, const char* words) {
-  snprintf(error, FOCALSTAGE_ERROR_BYTES, "%s", words);
-  return code;
-}
 
 /* When exposure number `number` of the run begins. */
 static int64_t exposure_ns(const struct focalstage_projector_device* device, uint64_t number) {
@@ -157,8 +146,7 @@ static int32_t null_acquire(struct focalstage_projector_device* device, uint8_t*
     *buffer = device->picture; /* what is written there goes nowhere, so one is enough */
     if (room) return FOCALSTAGE_OK;
     if (now_ns() >= until) return FOCALSTAGE_NOT_YET;
-    const struct timespec moment = {0, 500000};
-    nanosleep(&moment, NULL);
+    pause_ns(500000);
   }
 }
 

@@ -6,9 +6,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "../focalstage_lens_drive.h"
+#include "example.h"
 
 struct focalstage_drive_device {
   pthread_mutex_t mutex; /* held for some instructions only, so that every call may take it */
@@ -19,17 +19,6 @@ struct focalstage_drive_device {
   double period_ns;
   uint64_t stopped_after; /* periods; while it does not run */
 };
-
-static int64_t now_ns(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
-}
-
-static int32_t fail(char* error, int32_t code, const char* words) {
-  snprintf(error, FOCALSTAGE_ERROR_BYTES, "%s", words);
-  return code;
-}
 
 static uint64_t periods_begun(const struct focalstage_drive_device* device, int64_t at_ns) {
   if (!device->running) return device->stopped_after;

@@ -13,11 +13,11 @@
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <sys/un.h>
-#include <time.h>
 #include <unistd.h>
 
 #include "../focalstage_projector.h"
 #include "../wire_framing.h"
+#include "example.h"
 
 #define MS INT64_C(1000000)
 
@@ -40,22 +40,6 @@ struct focalstage_projector_device {
   uint32_t count; /* of exposures in a period */
   uint8_t* picture;
 };
-
-static int64_t now_ns(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (int64_t)now.tv_sec * 1000 * MS + now.tv_nsec;
-}
-
-static void pause_ns(int64_t ns) {
-  const struct timespec moment = {0, (long)ns};
-  nanosleep(&moment, NULL);
-}
-
-static int32_t fail(char* error, int32_t code, const char* words) {
-  snprintf(error, FOCALSTAGE_ERROR_BYTES, "%s", words);
-  return code;
-}
 
 static int read_flag(struct focalstage_projector_device* device, const int* flag) {
   pthread_mutex_lock(&device->books);

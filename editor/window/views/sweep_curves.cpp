@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/schedule/periodic.h"
+#include "core/base/periodic.h"
 #include "editor/window/base/im.h"
 
 namespace focalstage {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/number_words.h"
-#include "core/schedule/periodic.h"
+#include "core/base/periodic.h"
 #include "editor/session/session.h"
 #include "editor/tools/slice_tint.h"
 #include "editor/window/base/chips.h"

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "devices/runtime/rig_setup.h"
+#include "tests/support/forwarding_rig.h"
 
 namespace focalstage::sample {
 
@@ -33,32 +34,15 @@ class LightLog {
 };
 
 /// The simulated rig, watched by somebody who stands beside it.
-class SpyRig final : public Rig {
+class SpyRig final : public support::ForwardingRig {
  public:
   SpyRig(const SimSettings& settings, std::shared_ptr<LightLog> log)
-      : inner_(settings), width_px_(static_cast<std::size_t>(settings.width_px)), log_(std::move(log)) {}
-
-  void set_exposure(double exposure_s, PictureForm form) override { inner_.set_exposure(exposure_s, form); }
-  void announce_triggers(std::span<const double> trigger_s) override { inner_.announce_triggers(trigger_s); }
-  void set_drive(Side eye, std::span<const double> drive_a, double step_s) override {
-    inner_.set_drive(eye, drive_a, step_s);
-  }
-  void post_images(std::vector<Picture> pictures) override { inner_.post_images(std::move(pictures)); }
-  void sync_edge(double time_s) override { inner_.sync_edge(time_s); }
-  void trigger(double time_s) override { inner_.trigger(time_s); }
-  void shutter(Side eye, ShutterLevel level, double time_s) override { inner_.shutter(eye, level, time_s); }
-  void dark(double time_s) override { inner_.dark(time_s); }
-  int settle_sweeps() const override { return inner_.settle_sweeps(); }
-  bool retimes_at_once() const override { return inner_.retimes_at_once(); }
-  Status ready() override { return inner_.ready(); }
-  double edge_near_s(double planned_s) const override { return inner_.edge_near_s(planned_s); }
-  void run_until(double time_s) override { inner_.run_until(time_s); }
-  bool sees_light() const override { return inner_.sees_light(); }
-  std::optional<Fault> doubt() const override { return inner_.doubt(); }
-  std::vector<RigPart> parts() const override { return inner_.parts(); }
+      : ForwardingRig(std::make_unique<SimRig>(settings)),
+        width_px_(static_cast<std::size_t>(settings.width_px)),
+        log_(std::move(log)) {}
 
   std::vector<DeliveredExposure> take_delivered() override {
-    std::vector<DeliveredExposure> delivered = inner_.take_delivered();
+    std::vector<DeliveredExposure> delivered = ForwardingRig::take_delivered();
     for (const DeliveredExposure& exposure : delivered) log_->add({exposure.start_s, middle_of(exposure.picture)});
     return delivered;
   }
@@ -75,7 +59,6 @@ class SpyRig final : public Rig {
     return weighed / sum;
   }
 
-  SimRig inner_;
   std::size_t width_px_;
   std::shared_ptr<LightLog> log_;
 };

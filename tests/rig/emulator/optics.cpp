@@ -2,7 +2,6 @@
 
 #include <poll.h>
 #include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -12,7 +11,7 @@
 #include <cstring>
 #include <utility>
 
-#include "devices/plugin/wire_framing.h"
+#include "tests/devices/plugin/emulator/wire_talk.h"
 
 namespace focalstage::rig_emulator {
 
@@ -20,21 +19,9 @@ namespace {
 
 constexpr int tick_ms = 5;
 
-template <class Body>
-Body body_of(const std::uint8_t* bytes) {
-  Body body;
-  std::memcpy(&body, bytes, sizeof body);
-  return body;
-}
-
-template <class Body>
-bool say(int connection, std::uint32_t type, const Body& body) {
-  const wire_header header{type, 0, sizeof body};
-  std::uint8_t message[sizeof header + sizeof body];
-  std::memcpy(message, &header, sizeof header);
-  std::memcpy(message + sizeof header, &body, sizeof body);
-  return ::send(connection, message, sizeof message, MSG_NOSIGNAL) == static_cast<ssize_t>(sizeof message);
-}
+using wire_emulator::part_of;
+using wire_emulator::say;
+using wire_emulator::WireReader;
 
 }  // namespace
 
@@ -51,12 +38,8 @@ Optics::~Optics() {
 void Optics::plug_in() {
   const std::lock_guard lock(mutex_);
   if (plugged_in_) return;
-  ::unlink(settings_.socket.c_str());
-  listener_ = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  std::snprintf(address.sun_path, sizeof address.sun_path, "%s", settings_.socket.c_str());
-  if (::bind(listener_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0 || ::listen(listener_, 1) != 0) {
+  listener_ = wire_emulator::listen_at(settings_.socket, SOCK_NONBLOCK);
+  if (listener_ < 0) {
     std::perror(settings_.socket.c_str());
     std::abort();
   }
@@ -71,11 +54,6 @@ void Optics::unplug() {
   ::unlink(settings_.socket.c_str());
   if (connection_ >= 0) ::shutdown(connection_, SHUT_RDWR);
   forget();
-}
-
-bool Optics::plugged_in() const {
-  const std::lock_guard lock(mutex_);
-  return plugged_in_;
 }
 
 void Optics::forget() {
@@ -103,31 +81,20 @@ void Optics::serve(const std::stop_token& stop) {
   }
 }
 
-/// All of it, or false where the other end is gone or this one is to stop.
-bool Optics::read(int connection, std::uint8_t* bytes, std::size_t size, const std::stop_token& stop) {
-  while (size > 0) {
-    pollfd poll_for{connection, POLLIN, 0};
-    if (stop.stop_requested()) return false;
-    if (::poll(&poll_for, 1, tick_ms) == 0) continue;
-    const ssize_t got = ::recv(connection, bytes, size, 0);
-    if (got <= 0) return false;
-    bytes += got;
-    size -= static_cast<std::size_t>(got);
-  }
-  return true;
-}
-
+/// Until the other end is gone, or this one is to stop.
 void Optics::talk(int connection, const std::stop_token& stop) {
-  std::vector<std::uint8_t> body;
-  wire_header header{};
-  while (read(connection, reinterpret_cast<std::uint8_t*>(&header), sizeof header, stop)) {
-    body.resize(header.bytes);
-    if (!read(connection, body.data(), body.size(), stop)) return;
-    take(connection, header.type, body.data(), body.size());
+  WireReader reader;
+  while (!stop.stop_requested()) {
+    pollfd poll_for{connection, POLLIN, 0};
+    if (::poll(&poll_for, 1, tick_ms) == 0) continue;
+    WireReader::Got got = reader.receive(connection);
+    if (got == WireReader::Got::header) got = reader.receive(connection);
+    if (got == WireReader::Got::end) return;
+    if (got == WireReader::Got::message) take(connection, reader.header().type, reader.body());
   }
 }
 
-void Optics::take(int connection, std::uint32_t type, const std::uint8_t* bytes, std::size_t size) {
+void Optics::take(int connection, std::uint32_t type, std::span<const std::uint8_t> body) {
   const std::lock_guard lock(mutex_);
   switch (type) {
     case WIRE_HELLO: {
@@ -142,19 +109,20 @@ void Optics::take(int connection, std::uint32_t type, const std::uint8_t* bytes,
       break;
     }
     case WIRE_CONFIGURE:
-      exposure_s_ = 1e-9 * static_cast<double>(body_of<wire_configure>(bytes).exposure_ns);
+      exposure_s_ = 1e-9 * static_cast<double>(part_of<wire_configure>(body).value_or(wire_configure{}).exposure_ns);
       forget();
       break;
     case WIRE_START:
       forget();
       running_ = true;
-      run_ = body_of<wire_start>(bytes).run;
+      run_ = part_of<wire_start>(body).value_or(wire_start{}).run;
       shown_ = missed_ = 0;
       break;
     case WIRE_FRAME: {
-      const auto frame = body_of<wire_frame>(bytes);
-      waiting_.push_back(frame.black != 0 ? WaitingPicture{true, 0}
-                                          : picture_of(frame.exposure, {bytes + sizeof frame, size - sizeof frame}));
+      const auto frame = part_of<wire_frame>(body);
+      if (!frame) break;
+      waiting_.push_back(frame->black != 0 ? WaitingPicture{true, 0}
+                                           : picture_of(frame->exposure, body.subspan(sizeof *frame)));
       break;
     }
     case WIRE_STOP:
@@ -162,7 +130,7 @@ void Optics::take(int connection, std::uint32_t type, const std::uint8_t* bytes,
       break;
     case WIRE_BLANK:
       forget();
-      say(connection, WIRE_BLANKED, body_of<wire_blank>(bytes));
+      say(connection, WIRE_BLANKED, part_of<wire_blank>(body).value_or(wire_blank{}));
       break;
     default:
       break;

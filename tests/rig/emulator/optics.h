@@ -46,7 +46,6 @@ class Optics {
 
   void unplug();
   void plug_in();
-  bool plugged_in() const;
 
   /// Device time is `device_s`, which is `monotonic_s` for the host: it is told how the counts stand.
   void advance_to(double device_s, double monotonic_s);
@@ -60,8 +59,7 @@ class Optics {
  private:
   void serve(const std::stop_token& stop);
   void talk(int connection, const std::stop_token& stop);
-  static bool read(int connection, std::uint8_t* bytes, std::size_t size, const std::stop_token& stop);
-  void take(int connection, std::uint32_t type, const std::uint8_t* bytes, std::size_t size);
+  void take(int connection, std::uint32_t type, std::span<const std::uint8_t> body);
   void tell_counts(double device_s, double monotonic_s);
   WaitingPicture picture_of(std::uint32_t exposure, std::span<const std::uint8_t> pixels);
   void forget();

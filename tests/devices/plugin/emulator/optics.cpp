@@ -2,7 +2,6 @@
 
 #include <poll.h>
 #include <sys/socket.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <cstring>
@@ -11,13 +10,13 @@
 #include <mutex>
 #include <thread>
 
-#include "devices/plugin/wire_framing.h"
+#include "tests/devices/plugin/emulator/wire_talk.h"
 
 namespace focalstage::wire_emulator {
 
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
+using Bytes = std::span<const std::uint8_t>;
 
 std::int64_t now_ns() {
   timespec now{};
@@ -26,16 +25,10 @@ std::int64_t now_ns() {
 }
 
 template <class T>
-void append(Bytes& bytes, const T& value) {
-  const auto* from = reinterpret_cast<const std::uint8_t*>(&value);
-  bytes.insert(bytes.end(), from, from + sizeof value);
-}
-
-template <class T>
-bool take(const Bytes& body, T& into) {
-  if (body.size() < sizeof into) return false;
-  std::memcpy(&into, body.data(), sizeof into);
-  return true;
+bool take(Bytes body, T& into) {
+  const auto part = part_of<T>(body);
+  if (part) into = *part;
+  return part.has_value();
 }
 
 class Bench final : public Optics {
@@ -83,27 +76,20 @@ class Bench final : public Optics {
 
   void accept() {
     connection_ = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-    received_.clear();
+    reader_ = {};
     greeted_ = false;
     const std::lock_guard lock(mutex_);
     if (connection_ >= 0) ++record_.connections;
   }
 
   void read() {
-    std::uint8_t buffer[65536];
-    const ssize_t got = ::recv(connection_, buffer, sizeof buffer, 0);
-    if (got < 0 && errno == EAGAIN) return;
-    if (got <= 0) return hang_up();
-    received_.insert(received_.end(), buffer, buffer + got);
-    wire_header header{};
-    while (connection_ >= 0 && take(received_, header)) {
-      if (how().hang_up_at_frame && header.type == WIRE_FRAME) return hang_up();
-      if (received_.size() < sizeof header + header.bytes) return;
-      const auto begin = received_.begin() + sizeof header;
-      const Bytes body(begin, begin + static_cast<std::ptrdiff_t>(header.bytes));
-      received_.erase(received_.begin(), begin + static_cast<std::ptrdiff_t>(header.bytes));
-      follow(header.type, body);
+    WireReader::Got got = reader_.receive(connection_);
+    if (got == WireReader::Got::header) {
+      if (how().hang_up_at_frame && reader_.header().type == WIRE_FRAME) return hang_up();
+      got = reader_.receive(connection_);
     }
+    if (got == WireReader::Got::end) hang_up();
+    if (got == WireReader::Got::message) follow(reader_.header().type, reader_.body());
   }
 
   /// The end of the stream is darkness.
@@ -119,7 +105,7 @@ class Bench final : public Optics {
     waiting_.clear();
   }
 
-  void follow(std::uint32_t type, const Bytes& body) {
+  void follow(std::uint32_t type, Bytes body) {
     const std::lock_guard lock(mutex_);
     switch (type) {
       case WIRE_HELLO:
@@ -142,16 +128,16 @@ class Bench final : public Optics {
     }
   }
 
-  void greet(const Bytes& body) {
+  void greet(Bytes body) {
     wire_hello hello{};
     if (!take(body, hello) || hello.version != WIRE_VERSION) record_.broken = "another version";
     wire_geometry geometry{WIRE_VERSION, options_.width_px, options_.height_px, options_.most_periods_ahead, 0, {}};
     std::strcpy(geometry.serial, "OPTICS-1");
-    send(WIRE_GEOMETRY, geometry);
+    say(connection_, WIRE_GEOMETRY, geometry);
     greeted_ = true;
   }
 
-  void configure(const Bytes& body) {
+  void configure(Bytes body) {
     if (record_.triggers) record_.broken = "configured while it was started";
     if (!take(body, configured_)) record_.broken = "a short configuration";
     starts_.assign(configured_.count, 0);
@@ -159,7 +145,7 @@ class Bench final : public Optics {
     std::memcpy(starts_.data(), body.data() + sizeof configured_, body.size() - sizeof configured_);
   }
 
-  void start(const Bytes& body) {
+  void start(Bytes body) {
     wire_start started{};
     if (!take(body, started) || starts_.empty()) record_.broken = "started without a configuration";
     record_.run = started.run;
@@ -169,7 +155,7 @@ class Bench final : public Optics {
     first_ns_ = now_ns() + static_cast<std::int64_t>(configured_.period_ns);
   }
 
-  void frame(const Bytes& body) {
+  void frame(Bytes body) {
     wire_frame told{};
     if (!take(body, told)) record_.broken = "a short frame";
     const std::size_t bytes =
@@ -182,12 +168,12 @@ class Bench final : public Optics {
     waiting_.push_back({told.period, told.exposure, bytes > 0 ? body[sizeof told] : std::uint8_t{0}});
   }
 
-  void blank(const Bytes& body) {
+  void blank(Bytes body) {
     wire_blank told{};
     if (!take(body, told)) record_.broken = "a short blank";
     ++record_.blanks;
     go_dark();
-    if (!faults_.no_answer) send(WIRE_BLANKED, told);
+    if (!faults_.no_answer) say(connection_, WIRE_BLANKED, told);
   }
 
   void trigger_until(std::int64_t until_ns) {
@@ -212,22 +198,15 @@ class Bench final : public Optics {
     const std::lock_guard lock(mutex_);
     if (connection_ < 0 || !greeted_ || faults_.mute || faults_.deaf || now_ns() < told_ns_ + 1'000'000) return;
     told_ns_ = now_ns();
-    send(WIRE_COUNTS, wire_counts{record_.run, record_.shown, record_.missed, told_ns_, told_ns_ - first_ns_});
-  }
-
-  template <class Body>
-  void send(std::uint32_t type, const Body& body) {
-    Bytes bytes;
-    append(bytes, wire_header{type, 0, sizeof body});
-    append(bytes, body);
-    (void)!::send(connection_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    say(connection_, WIRE_COUNTS,
+        wire_counts{record_.run, record_.shown, record_.missed, told_ns_, told_ns_ - first_ns_});
   }
 
   OpticsOptions options_;
   int listener_;
   int connection_ = -1;
   bool greeted_ = false;
-  Bytes received_;
+  WireReader reader_;
   mutable std::mutex mutex_;
   OpticsFaults faults_;
   OpticsRecord record_;
@@ -242,16 +221,9 @@ class Bench final : public Optics {
 }  // namespace
 
 std::unique_ptr<Optics> Optics::start(const OpticsOptions& options) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (options.socket.size() >= sizeof address.sun_path) return nullptr;
-  std::strcpy(address.sun_path, options.socket.c_str());
-  ::unlink(options.socket.c_str());
-  const int listener = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  const bool bound = ::bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
-  if (listener >= 0 && bound && ::listen(listener, 4) == 0) return std::make_unique<Bench>(options, listener);
-  if (listener >= 0) ::close(listener);
-  return nullptr;
+  const int listener = listen_at(options.socket);
+  if (listener < 0) return nullptr;
+  return std::make_unique<Bench>(options, listener);
 }
 
 }  // namespace focalstage::wire_emulator

@@ -1,4 +1,4 @@
-#include "core/schedule/periodic.h"
+#include "core/base/periodic.h"
 
 #include <doctest/doctest.h>
 
