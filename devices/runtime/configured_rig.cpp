@@ -7,6 +7,7 @@
 #include "core/schedule/sweep_shape.h"
 #include "devices/catalog/catalog.h"
 #include "devices/rig/device_rig.h"
+#include "devices/runtime/tracker_setup.h"
 
 namespace focalstage {
 
@@ -84,6 +85,11 @@ Result<RuntimeOptions> runtime_options(const RigConfig& config) {
   options.network = config.network;
   options.clients = config.clients;
   options.drivers = device_drivers();
+  if (config.devices.tracker) {
+    Result<TrackerSetup> tracker = tracker_setup(*config.devices.tracker);
+    if (!tracker) return tracker.fault();
+    options.tracker = std::move(*tracker);
+  }
   return options;
 }
 
