@@ -115,6 +115,7 @@ v1::SlotReport message_from(const SlotReport& slot) {
   message.set_delivered(slot.delivered);
   message.set_exposures(slot.exposures);
   message.set_missed(slot.missed);
+  message.set_unmeasured(slot.unmeasured);
   return message;
 }
 
@@ -135,6 +136,7 @@ SlotReport slot_from(const v1::SlotReport& message) {
   slot.delivered = message.delivered();
   slot.exposures = message.exposures();
   slot.missed = message.missed();
+  slot.unmeasured = message.unmeasured();
   return slot;
 }
 

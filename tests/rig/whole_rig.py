@@ -182,6 +182,7 @@ def test_plays_ten_seconds():
         rig.until(lambda: rig.tell("time")["time_s"] > from_s + 10.0, "ten seconds", 60.0)
         state = rig.state()
         assert state["state"] == "playing" and state["missed_exposures"] == 0, state
+        assert all(not slot["measured"] and slot["delivered"] is None for slot in state["slots"]), state["slots"]
         lights = [light for light in rig.light() if light["start_s"] > from_s + 0.5]
         worst_d, worst_s, counts = hold_against(slots, lights)
         lit = [count for count, slot in zip(counts, slots) if slot["lit"]]
