@@ -4,7 +4,6 @@
 #include <string>
 
 #include "core/base/result.h"
-#include "devices/catalog/device_drivers.h"
 #include "devices/rig/conductor.h"
 #include "devices/roles/projector.h"
 #include "devices/roles/trigger_board.h"
@@ -20,8 +19,5 @@ Result<std::shared_ptr<TriggerBoard>> make_trigger_board(const DeviceConfig& dev
 
 /// All three; "rig.config" where one is not named.
 Result<RigDevices> make_rig_devices(const DevicesConfig& devices);
-
-/// What can be listed, and made to show itself, of the drivers here. One that a rig plays on is busy, and says so.
-DeviceDrivers device_drivers();
 
 }  // namespace focalstage

@@ -15,6 +15,11 @@ Fault going_dark(const std::string& name) {
   return {"rig.device", name, "it is still being made dark", "say go again in a moment"};
 }
 
+Fault own_time() {
+  return {"rig.device", "projector", "it keeps its own time, and the lens drive cannot follow it",
+          "use a projector that waits for triggers"};
+}
+
 }  // namespace
 
 DeviceRig::DeviceRig(RigDevices devices, const DeviceRigSettings& settings)
@@ -63,6 +68,7 @@ Status DeviceRig::ready() {
     if (!hand->settled()) return going_dark(hand->name());
     if (Status fit = hand->fit(); !fit) return fit;
   }
+  if (devices_.projector->abilities().pacing == Pacing::master) return own_time();
   const std::lock_guard lock(mutex_);
   doubt_.reset();
   return {};

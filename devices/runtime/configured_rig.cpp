@@ -6,6 +6,7 @@
 
 #include "core/schedule/sweep_shape.h"
 #include "devices/catalog/catalog.h"
+#include "devices/catalog/device_drivers.h"
 #include "devices/rig/device_rig.h"
 #include "devices/runtime/tracker_setup.h"
 
