@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/result.h"
-#include "devices/rig/conductor.h"
+#include "devices/rig/leader.h"
 #include "devices/roles/projector.h"
 #include "devices/roles/trigger_board.h"
 #include "io/rig_config/rig_config.h"
