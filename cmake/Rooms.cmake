@@ -56,8 +56,9 @@ focalstage_room(devices/camera  USES devices/roles core/base)
 focalstage_room(devices/aruco   USES devices/roles core/base       PRIVATE_LIBS opencv::aruco opencv::calib3d opencv::core)
 focalstage_room(devices/player  USES devices/roles io/show core/schedule)
 focalstage_room(devices/uno     USES devices/serial devices/roles core/base)
-focalstage_room(devices/catalog USES devices/uno devices/mcc1208 devices/plugin devices/rig devices/roles io/rig_config core/scene core/base)
-focalstage_room(devices/runtime USES devices/catalog devices/rig devices/player devices/sim devices/natnet devices/recording devices/roles io/show io/project io/assets
+focalstage_room(devices/catalog USES devices/uno devices/mcc1208 devices/plugin devices/natnet devices/recording devices/aruco devices/camera
+                                     devices/lightcrafter devices/display_kms devices/display devices/optotune devices/serial devices/rig devices/roles io/rig_config core/scene core/base)
+focalstage_room(devices/runtime USES devices/catalog devices/rig devices/player devices/sim devices/recording devices/roles io/show io/project io/assets
                                      io/json io/models io/protocol io/credentials io/rig_config io/files core/check core/compile core/schedule core/stage
                                      core/tracking
                                 PRIVATE_LIBS spdlog::spdlog gRPC::grpc++ gRPC::grpc++_reflection)

@@ -2,12 +2,11 @@
 
 #include <utility>
 
+#include "devices/catalog/lightcrafter_catalog.h"
 #include "devices/catalog/settings_reader.h"
 #include "devices/mcc1208/mcc1208.h"
-#include "devices/mcc1208/probe.h"
 #include "devices/plugin/plugin_lens_drive.h"
 #include "devices/plugin/plugin_projector.h"
-#include "devices/uno/probe.h"
 #include "devices/uno/uno.h"
 
 namespace focalstage {
@@ -85,24 +84,22 @@ Result<std::shared_ptr<TriggerBoard>> uno(const DeviceConfig& device) {
   return std::shared_ptr<TriggerBoard>(make_uno(settings));
 }
 
-/// Opened for that alone.
-Status shown(Device& device) {
-  Status done = device.open();
-  if (done) done = device.identify();
-  device.close();
-  return done;
-}
-
 }  // namespace
 
 Result<std::shared_ptr<ProjectorDevice>> make_projector(const DeviceConfig& device) {
+  if (device.driver == "lightcrafter") return make_lightcrafter_projector(device);
   if (device.driver == "plugin") return plugin_projector(device);
-  return unknown_driver(projector_place, device.driver, "plugin");
+  return unknown_driver(projector_place, device.driver, "lightcrafter or plugin");
 }
 
 Result<std::shared_ptr<LensDrive>> make_lens_drive(const DeviceConfig& device) {
   if (device.driver == "mcc1208") return mcc1208(device);
   if (device.driver == "plugin") return plugin_lens_drive(device);
+  if (device.driver == "optotune") {
+    return Fault{"rig.config", std::string(lens_place) + "/driver",
+                 "nothing keeps an Optotune Lens Driver in step with a projector",
+                 "let it follow a waveform generator at its analogue input, and name that: mcc1208 or plugin"};
+  }
   return unknown_driver(lens_place, device.driver, "mcc1208 or plugin");
 }
 
@@ -122,23 +119,6 @@ Result<RigDevices> make_rig_devices(const DevicesConfig& devices) {
   auto board = make_trigger_board(*devices.trigger_board);
   if (!board) return board.fault();
   return RigDevices{std::move(*projector), std::move(*lens), std::move(*board)};
-}
-
-DeviceDrivers device_drivers() {
-  DeviceDrivers drivers;
-  drivers["mcc1208"] = {[]() -> Result<std::vector<DeviceId>> { return probe_mcc1208(); },
-                        [](const std::string& serial) {
-                          Mcc1208Settings settings;
-                          settings.serial = serial;
-                          return shown(*make_mcc1208(settings));
-                        }};
-  drivers["uno"] = {[]() -> Result<std::vector<DeviceId>> { return probe_uno(); },
-                    [](const std::string& serial) {
-                      UnoSettings settings;
-                      settings.serial = serial;
-                      return shown(*make_uno(settings));
-                    }};
-  return drivers;
 }
 
 }  // namespace focalstage

@@ -4,8 +4,7 @@
 #include <string>
 
 #include "core/base/result.h"
-#include "devices/catalog/device_drivers.h"
-#include "devices/rig/conductor.h"
+#include "devices/rig/leader.h"
 #include "devices/roles/projector.h"
 #include "devices/roles/trigger_board.h"
 #include "io/rig_config/rig_config.h"
@@ -20,8 +19,5 @@ Result<std::shared_ptr<TriggerBoard>> make_trigger_board(const DeviceConfig& dev
 
 /// All three; "rig.config" where one is not named.
 Result<RigDevices> make_rig_devices(const DevicesConfig& devices);
-
-/// What can be listed, and made to show itself, of the drivers here. One that a rig plays on is busy, and says so.
-DeviceDrivers device_drivers();
 
 }  // namespace focalstage

@@ -23,4 +23,7 @@ struct DeviceDriver {
 /// By the driver's name.
 using DeviceDrivers = std::map<std::string, DeviceDriver>;
 
+/// What can be listed, and made to show itself, of the drivers here. One that a rig plays on is busy, and says so.
+DeviceDrivers device_drivers();
+
 }  // namespace focalstage

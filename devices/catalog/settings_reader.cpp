@@ -16,7 +16,7 @@ const Value* SettingsReader::find(const std::string& key) {
 void SettingsReader::refuse(const std::string& key, const std::string& message) {
   if (fault_) return;
   fault_ = Fault{"rig.config", place_ + "/settings/" + key, message,
-                 "see the README of devices/" + device_.driver + " for its settings"};
+                 "see the README of devices/" + folder_ + " for its settings"};
 }
 
 std::string SettingsReader::text_of(const Value& value) {

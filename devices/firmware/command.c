@@ -101,6 +101,15 @@ static void tell_status(const struct fs_conversation* talk, struct fs_line_write
   }
 }
 
+static void tell_lens(struct fs_line_writer* answer) {
+  struct fs_lens lens;
+  fs_engine_lens(&lens);
+  fs_line_text(answer, "OK ");
+  fs_line_number(answer, lens.after);
+  fs_line_text(answer, " ");
+  fs_line_number(answer, lens.edges);
+}
+
 static void finish(struct fs_line_writer* answer, enum fs_error error) {
   if (error == FS_OK) {
     fs_line_text(answer, "OK");
@@ -119,6 +128,8 @@ static void ask(const struct fs_conversation* talk, const char* name, uint8_t le
   } else if (is_word(name, length, "STAT")) {
     fs_line_text(answer, "OK ");
     tell_status(talk, answer);
+  } else if (is_word(name, length, "LENS")) {
+    tell_lens(answer);
   } else if (is_word(name, length, "TEST")) {
     uint8_t failed = 0;
     const enum fs_error error = fs_engine_test(&failed);

@@ -13,6 +13,10 @@
 #define RIGHT_PIN (1u << PD5)
 #define SHUTTER_PINS (LEFT_PIN | RIGHT_PIN)
 #define LAMP_PIN (1u << PB5)
+#define LENS_PIN (1u << PD2)
+
+// From an edge at the lens pin to the reading of the timer, as tests/devices/board finds it.
+#define LENS_LATENCY_TICKS 3u
 
 #define LOST_TICKS (25u * FS_TICKS_PER_MS)
 #define SILENT_TICKS (500ul * FS_TICKS_PER_MS)
@@ -43,6 +47,10 @@ static volatile uint16_t longest;
 static volatile int16_t ratio[2];
 static volatile bool ratio_known[2];
 static volatile bool alive;
+
+// From the lens interrupt.
+static volatile uint16_t lens_after;
+static volatile uint16_t lens_edges;
 
 // This period's, of the interrupts alone.
 static int16_t ratio_now;
@@ -210,6 +218,12 @@ ISR(TIMER1_COMPB_vect) {
   await_change(table);
 }
 
+// Only a time: what it means is the host's to judge.
+ISR(INT0_vect) {
+  lens_after = (uint16_t)(TCNT1 - LENS_LATENCY_TICKS - edge);
+  ++lens_edges;
+}
+
 // Wakes the main loop every 1.024 ms, to look for what did not happen.
 EMPTY_INTERRUPT(TIMER0_OVF_vect)
 
@@ -224,6 +238,11 @@ void fs_engine_start(void) {
   TCCR1A = 0;
   TCCR1B = 1 << ICNC1 | 1 << ICES1 | 1 << CS11;  // noise filter, rising edge, clock / 8
   TIMSK1 = 1 << ICIE1;
+  DDRD &= (uint8_t)~LENS_PIN;
+  PORTD |= LENS_PIN;  // a pin that nothing is wired to stands still
+  EICRA = 1 << ISC01 | 1 << ISC00;
+  EIFR = 1 << INTF0;
+  EIMSK = 1 << INT0;
   TCCR0B = 1 << CS01 | 1 << CS00;
   TIMSK0 = 1 << TOIE0;
   wdt_enable(WDTO_30MS);
@@ -404,4 +423,11 @@ void fs_engine_status(struct fs_status* status) {
     status->edges = edges;
   }
   status->period = fs_period_locked(&period) ? (uint16_t)((period.mean_q8 + 128u) >> 8) : 0;
+}
+
+void fs_engine_lens(struct fs_lens* lens) {
+  ATOMIC_BLOCK(ATOMIC_RESTORESTATE) {
+    lens->after = lens_after;
+    lens->edges = lens_edges;
+  }
 }

@@ -20,6 +20,12 @@ struct fs_status {
   uint16_t edges;
 };
 
+/// The lens drive's edge at its own input, where a projector gives the sync edge.
+struct fs_lens {
+  uint16_t after;  ///< ticks since the newest sync edge when the newest came: up to a period
+  uint16_t edges;
+};
+
 /// Timer, pins and the two tables: what commands act on. On the chip it is engine.c; tests put their own here.
 /// The table not in use; one committed and not yet taken is dropped. NULL: not now, it is armed for that one.
 struct fs_table* fs_engine_begin(void);
@@ -32,6 +38,7 @@ enum fs_error fs_engine_test(uint8_t* failed);
 /// The board's own lamp, on and off for a while.
 enum fs_error fs_engine_blink(void);
 void fs_engine_status(struct fs_status* status);
+void fs_engine_lens(struct fs_lens* lens);
 
 #ifdef __cplusplus
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <mutex>
+#include <set>
+#include <utility>
 
 #include "devices/lightcrafter/link.h"
 #include "devices/lightcrafter/probe.h"
@@ -13,10 +15,36 @@ namespace lightcrafter {
 
 namespace {
 
+/// The units that this program has open. The system lets a node be opened twice, and each would read what the other was
+/// answered.
+class OpenUnits {
+ public:
+  bool take(const std::string& path) {
+    const std::lock_guard lock(mutex_);
+    return paths_.insert(path).second;
+  }
+  void give_back(const std::string& path) {
+    const std::lock_guard lock(mutex_);
+    paths_.erase(path);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::set<std::string> paths_;
+};
+
+OpenUnits& open_units() {
+  static OpenUnits units;
+  return units;
+}
+
 class HidReports final : public Reports {
  public:
-  explicit HidReports(hid_device* device) : device_(device) {}
-  ~HidReports() override { hid_close(device_); }
+  HidReports(hid_device* device, std::string path) : device_(device), path_(std::move(path)) {}
+  ~HidReports() override {
+    hid_close(device_);
+    open_units().give_back(path_);
+  }
 
   bool write(const Report& report) override {
     std::array<unsigned char, 65> bytes{};  // a report number that is none goes first
@@ -32,6 +60,7 @@ class HidReports final : public Reports {
 
  private:
   hid_device* device_;
+  std::string path_;
 };
 
 std::string narrow(const wchar_t* text) {
@@ -67,12 +96,16 @@ Result<std::unique_ptr<Reports>> open_hid(const std::string& serial, const std::
                  all.empty() ? "none is plugged in" : "the one that is plugged in is another one",
                  "plug it in and switch it on, or change its serial in the settings"};
   }
+  if (!open_units().take(found->address)) {
+    return Fault{"projector.busy", found->address, "this rig has it open", "wait until the rig no longer uses it"};
+  }
   hid_device* device = hid_open_path(found->address.c_str());
   if (device == nullptr) {
+    open_units().give_back(found->address);
     return Fault{"projector.permission", found->address, "it cannot be opened",
                  "install the udev rule of devices/lightcrafter/README.md and plug it in again"};
   }
-  return std::unique_ptr<Reports>(std::make_unique<HidReports>(device));
+  return std::unique_ptr<Reports>(std::make_unique<HidReports>(device, found->address));
 }
 
 }  // namespace lightcrafter

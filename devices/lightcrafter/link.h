@@ -24,8 +24,8 @@ class Reports {
   virtual Got read(Report& report, int timeout_ms) = 0;
 };
 
-/// Opens the HID node of a unit: by address, by serial, or the first there is. "projector.absent" or
-/// "projector.permission".
+/// Opens the HID node of a unit: by address, by serial, or the first there is. "projector.absent",
+/// "projector.permission", or "projector.busy" where this program has it open already.
 Result<std::unique_ptr<Reports>> open_hid(const std::string& serial, const std::string& address);
 
 /// Messages and their answers, each with a deadline. For one thread at a time. "projector.lost": it is gone;

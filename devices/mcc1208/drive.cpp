@@ -99,7 +99,9 @@ Status Mcc1208Drive::identify() {
   return session->unit->blink(blinks);
 }
 
-DriveAbilities Mcc1208Drive::abilities() const { return {false, true, mcc1208_most_a(settings_), settings_.samples}; }
+DriveAbilities Mcc1208Drive::abilities() const {
+  return {false, true, mcc1208_most_a(settings_), settings_.samples, true};
+}
 
 Status Mcc1208Drive::start(const DrivePeriod& period) {
   const std::lock_guard calls(calls_);
@@ -157,6 +159,17 @@ Result<std::uint64_t> Mcc1208Drive::refill(const DrivePeriod& period) {
   if (from) return *from;
   return Fault{"drive.unable", id().address, "a period of another length cannot follow without a gap",
                "stop it and start it with this period"};
+}
+
+Status Mcc1208Drive::steer(double period_s, double later_s) {
+  const std::lock_guard calls(calls_);
+  {
+    const std::lock_guard lock(mutex_);
+    if (state_.phase != DevicePhase::running) return Fault{"drive.off", id_.address, "it does not run", "start it"};
+  }
+  if (stream_.steer(period_s, later_s)) return {};
+  return Fault{"drive.unable", id().address, "a period of that length is more than a hundredth off the one it plays",
+               "stop it and start it with that period"};
 }
 
 bool Mcc1208Drive::stop() noexcept {

@@ -34,6 +34,7 @@ class Mcc1208Drive final : public LensDrive {
   DriveAbilities abilities() const override;
   Status start(const DrivePeriod& period) override;
   Result<std::uint64_t> refill(const DrivePeriod& period) override;
+  Status steer(double period_s, double later_s) override;
   bool stop() noexcept override;
   DriveReport report() const override;
 

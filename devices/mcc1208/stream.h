@@ -1,17 +1,20 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <mutex>
 #include <optional>
 #include <vector>
 
 #include "devices/mcc1208/pace.h"
+#include "devices/mcc1208/steered.h"
 #include "devices/mcc1208/wave.h"
 #include "devices/roles/lens_drive.h"
 
 namespace focalstage {
 
-/// What is played and what was: one filling of the queue is one period, so that a new one begins at a period's start.
+/// What is played and what was: one filling of the queue is one period, so that a new one begins at a period's start;
+/// where it is steered, as many scans as that.
 /// Any thread; no call waits.
 class Mcc1208Stream {
  public:
@@ -20,6 +23,9 @@ class Mcc1208Stream {
   /// From which period on the wave is played, counted as `DriveReport::periods` counts. None: it would need another
   /// pacer.
   std::optional<std::uint64_t> replace(Mcc1208Wave wave);
+
+  /// False: no period of that length can be made of this one.
+  bool steer(double period_s, double later_s);
 
   void fill(std::vector<std::uint8_t>& bytes);
   void taken(double now_s);  ///< one filling
@@ -40,7 +46,10 @@ class Mcc1208Stream {
   Mcc1208Pace pace_;
   double taken_s_ = 0.0;
   std::optional<double> ended_s_ = 0.0;
-  DriveReport counts_;  ///< underruns and clamped
+  std::optional<Mcc1208Steered> steered_;
+  double steered_from_ = 0.0;          ///< periods that were played before
+  std::array<double, 64> periods_at_;  ///< where fillings begin, by their number: periods before
+  DriveReport counts_;                 ///< underruns and clamped
 };
 
 }  // namespace focalstage

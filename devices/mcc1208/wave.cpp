@@ -104,10 +104,12 @@ Result<Mcc1208Wave> mcc1208_wave(const DrivePeriod& period, const Mcc1208Setting
   const auto& asked_a = period.drive_a.left;
   const int high = std::clamp(static_cast<int>(std::lround(settings.sync_pulse_s * mcc_scans_per_s(*pacer))), 1,
                               settings.samples - 1);
+  wave.pulse_scans = high;
   for (int i = 0; i < settings.samples; ++i) {
     const double drive_a = periodic_at(asked_a, static_cast<double>(i) / settings.samples);
     const int code = mcc1208_code(drive_a, settings, wave.clamped);
     if (i == 0) wave.first_code = code;
+    wave.codes.push_back(code);
     append_mcc_scan(wave.bytes, code, i < high ? mcc_top_code : 0);
   }
   return wave;

@@ -25,6 +25,8 @@ struct Mcc1208Wave {
   double period_s = 0.0;            ///< by the device's clock
   int first_code = 0;               ///< of channel 0
   std::vector<std::uint8_t> bytes;  ///< scans of both channels: the lens, and the sync edge at the first
+  std::vector<int> codes;           ///< of channel 0, the same
+  int pulse_scans = 1;              ///< that the sync edge stays high
   std::uint64_t clamped = 0;
 };
 

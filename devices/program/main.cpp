@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include "devices/runtime/configured_rig.h"
-#include "devices/runtime/make_tracker.h"
+#include "devices/runtime/tracker_setup.h"
 #include "devices/service/logs.h"
 #include "devices/service/service.h"
 #include "io/files/user_folders.h"
@@ -75,15 +75,22 @@ Rigid pose_of(const std::vector<double>& numbers) {
   return {{numbers[0], numbers[1], numbers[2]}, glm::normalize(turn)};
 }
 
-/// What the words on the command line make of a tracker.
-Result<TrackerSetup> tracker_setup(const Flags& flags) {
-  TrackerSetup setup;
-  if (flags.tracker.empty()) return setup;
-  Result<std::shared_ptr<Tracker>> tracker = make_tracker(flags.tracker);
-  if (!tracker) return tracker.fault();
-  setup.tracker = flags.record.empty() ? *tracker : recorded(*tracker, flags.record);
-  setup.world_from_tracker = pose_of(flags.tracker_pose);
-  return setup;
+/// The tracker that the command line names, where the file names no other.
+Status take_tracker(const Flags& flags, RigConfig& config) {
+  if (flags.tracker.empty()) {
+    if (flags.record.empty() || config.devices.tracker) return {};
+    return Fault{"rig.config", "--record-tracker", "there is no tracker to record",
+                 "name one with --tracker, or in rig.json"};
+  }
+  Result<TrackerConfig> named = tracker_named(flags.tracker);
+  if (!named) return named.fault();
+  named->world_from_tracker = pose_of(flags.tracker_pose);
+  if (config.devices.tracker && *config.devices.tracker != *named) {
+    return Fault{"rig.config", flags.config + ": /devices/tracker",
+                 "the command line names another tracker, --tracker " + flags.tracker, "leave one of them out"};
+  }
+  config.devices.tracker = std::move(*named);
+  return {};
 }
 
 /// The file's word where there is one, and the flags' over it.
@@ -112,7 +119,7 @@ void declare(CLI::App& app, Flags& flags) {
   app.add_flag("--virtual-time", flags.virtual_time, "play as fast as the machine can, exactly the same each time");
   app.add_flag("--once", flags.once, "hold the last frame at the end of a show instead of starting again");
   auto* tracked = app.add_option("--tracker", flags.tracker, "natnet:HOST, natnet-unicast:HOST or recording:FILE");
-  app.add_option("--record-tracker", flags.record, "writes what the tracker says to this file")->needs(tracked);
+  app.add_option("--record-tracker", flags.record, "writes what the tracker says to this file");
   app.add_option("--tracker-pose", flags.tracker_pose, "world from tracker, in metres: X Y Z QX QY QZ QW")
       ->expected(7)
       ->needs(tracked);
@@ -129,13 +136,12 @@ int run(int argc, char** argv) {
     const int status = app.exit(error);
     return status == 0 ? done : wrong_usage;
   }
-  const Result<RigConfig> config = configuration(flags);
+  Result<RigConfig> config = configuration(flags);
   if (!config) return report(config.fault(), invalid);
+  if (Status tracker = take_tracker(flags, *config); !tracker) return report(tracker.fault(), wrong_usage);
   Result<RuntimeOptions> options = runtime_options(*config);
-  if (!options) return report(options.fault(), invalid);
-  Result<TrackerSetup> tracker = tracker_setup(flags);
-  if (!tracker) return report(tracker.fault(), wrong_usage);
-  options->tracker = std::move(*tracker);
+  if (!options) return report(options.fault(), flags.tracker.empty() ? invalid : wrong_usage);
+  if (!flags.record.empty()) options->tracker.tracker = recorded(options->tracker.tracker, flags.record);
   options->rig.clock = flags.virtual_time ? RigClock::virtual_time : RigClock::real_time;
   options->rig.at_end = flags.once ? AtEnd::hold : AtEnd::loop;
   return serve(*config, *options);

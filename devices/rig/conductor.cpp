@@ -1,18 +1,13 @@
 #include "devices/rig/conductor.h"
 
-#include <cmath>
 #include <string>
 #include <utility>
 
-#include "core/base/periodic.h"
+#include "devices/rig/rig_tables.h"
 
 namespace focalstage {
 
 namespace {
-
-// How much of the way to where the devices' beat stands one sweep goes: their reports come with the jitter of their
-// lines.
-constexpr double follow_share = 0.1;
 
 Fault late_pictures() {
   return {"rig.missed-light", "projector", "a sweep's pictures were not there when it began",
@@ -26,38 +21,7 @@ Fault lost_trigger(std::uint64_t missed) {
           "look at the line between trigger board and projector, then say go"};
 }
 
-BoardTable board_table(const Score& score, const std::vector<TableTrigger>& triggers, double pulse_s) {
-  BoardTable table;
-  table.period_s = score.drive.period_s;
-  table.pulse_s = pulse_s;
-  for (const TableTrigger& trigger : triggers) table.trigger_s.push_back(trigger.at_s);
-  for (const Side eye : both_sides) {
-    if (!score.shutter[eye]) continue;
-    // A shutter that is open over the period's end closes in the next one.
-    const double open_s = wrapped_s(score.shutter[eye]->open_s, table.period_s);
-    table.shutter[eye] = {open_s, open_s + wrapped_s(score.shutter[eye]->close_s - open_s, table.period_s)};
-  }
-  return table;
-}
-
-Exposures exposures_of(const Score& score, const std::vector<TableTrigger>& triggers, double latency_s) {
-  Exposures exposures;
-  exposures.period_s = score.drive.period_s;
-  exposures.form = score.form;
-  for (const TableTrigger& trigger : triggers) exposures.start_s.push_back(trigger.at_s + latency_s);
-  exposures.exposure_s = score.exposure_s;
-  return exposures;
-}
-
 }  // namespace
-
-double edge_near_s(const LensDrive& lens, double planned_s) {
-  const DriveReport beat = lens.report();
-  if (beat.periods == 0 || !(beat.period_s > 0.0)) return planned_s;
-  const double periods = std::round((planned_s - beat.newest_period_s) / beat.period_s);
-  const double beat_s = beat.newest_period_s + periods * beat.period_s;
-  return planned_s + follow_share * (beat_s - planned_s);
-}
 
 /// Takes up the score of the sweep that is next, once all of the one before it was shown.
 Status Conductor::follow_score() {

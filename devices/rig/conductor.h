@@ -7,46 +7,22 @@
 #include <vector>
 
 #include "core/base/result.h"
+#include "devices/rig/leader.h"
 #include "devices/rig/period_pictures.h"
-#include "devices/rig/score.h"
 #include "devices/rig/trigger_watch.h"
-#include "devices/roles/lens_drive.h"
-#include "devices/roles/projector.h"
-#include "devices/roles/trigger_board.h"
 
 namespace focalstage {
 
-struct RigDevices {
-  std::shared_ptr<ProjectorDevice> projector;
-  std::shared_ptr<LensDrive> lens;
-  std::shared_ptr<TriggerBoard> board;
-};
-
-struct DeviceRigSettings {
-  int settle_sweeps = 60;   ///< for lenses to swing in, the board to find the beat, tables to travel
-  double pulse_s = 100e-6;  ///< of a projector trigger
-};
-
-/// A little of the way from where a sync edge is planned to where the lens drive's beat has it.
-double edge_near_s(const LensDrive& lens, double planned_s);
-
-/// Leads the devices through what was handed over: current first, then tables, then triggers, then pictures in time.
-/// Has no thread and no clock: `step` is told the time, every millisecond or so. Once light may come, no step waits for
-/// a device.
-class Conductor {
+/// Leads a rig whose projector waits for triggers: current first, then tables, then triggers, then pictures in time.
+/// Once light may come, no step waits for a device.
+class Conductor final : public Leader {
  public:
   Conductor(const RigDevices& devices, const DeviceRigSettings& settings) : devices_(devices), settings_(settings) {}
 
-  void hand_over(HandedSweep sweep) { sweeps_.push_back(std::move(sweep)); }
-
-  /// A fault is a doubt: whoever leads makes everything dark, and calls `forget`.
-  Status step(double now_s);
-
-  /// Everything is dark now, and begins anew with the next sweep handed over.
-  void forget();
-
-  /// Devices give something out: from now on a device that fails is a doubt.
-  bool leads() const { return stage_ != Stage::idle; }
+  void hand_over(HandedSweep sweep) override { sweeps_.push_back(std::move(sweep)); }
+  Status step(double now_s) override;
+  void forget() override;
+  bool leads() const override { return stage_ != Stage::idle; }
 
  private:
   enum class Stage { idle, driving, prepared, lit };

@@ -15,11 +15,19 @@ Fault going_dark(const std::string& name) {
   return {"rig.device", name, "it is still being made dark", "say go again in a moment"};
 }
 
+Fault own_time() {
+  return {"rig.device", "projector", "it keeps its own time, and the lens drive cannot follow it",
+          "use a projector that waits for triggers, or the lens drive mcc1208"};
+}
+
+bool is_master(const RigDevices& devices) { return devices.projector->abilities().pacing == Pacing::master; }
+
 }  // namespace
 
 DeviceRig::DeviceRig(RigDevices devices, const DeviceRigSettings& settings)
     : settings_(settings),
       devices_(std::move(devices)),
+      settle_sweeps_(is_master(devices_) ? settings.following_sweeps : settings.settle_sweeps),
       projector_("projector", devices_.projector, [this] { return devices_.projector->dark(); }),
       lens_("lens drive", devices_.lens, [this] { return devices_.lens->stop(); }),
       board_("trigger board", devices_.board, [this] { return devices_.board->dark(); }),
@@ -63,12 +71,13 @@ Status DeviceRig::ready() {
     if (!hand->settled()) return going_dark(hand->name());
     if (Status fit = hand->fit(); !fit) return fit;
   }
+  if (is_master(devices_) && !devices_.lens->abilities().steers) return own_time();
   const std::lock_guard lock(mutex_);
   doubt_.reset();
   return {};
 }
 
-double DeviceRig::edge_near_s(double planned_s) const { return focalstage::edge_near_s(*devices_.lens, planned_s); }
+double DeviceRig::edge_near_s(double planned_s) const { return focalstage::edge_near_s(devices_, planned_s); }
 
 std::optional<Fault> DeviceRig::doubt() const {
   const std::lock_guard lock(mutex_);
@@ -79,16 +88,16 @@ std::vector<RigPart> DeviceRig::parts() const { return {projector_.part(), lens_
 
 void DeviceRig::lead(const std::stop_token& stop) {
   prefer_this_thread();
-  Conductor conductor(devices_, settings_);
+  const std::unique_ptr<Leader> leader = make_leader(devices_, settings_);
   std::uint64_t darkness = 0;
   while (!stop.stop_requested()) {
     {
       const std::lock_guard lock(mutex_);
-      if (std::exchange(darkness, darkness_) != darkness_) conductor.forget();
-      for (HandedSweep& sweep : std::exchange(handed_, {})) conductor.hand_over(std::move(sweep));
+      if (std::exchange(darkness, darkness_) != darkness_) leader->forget();
+      for (HandedSweep& sweep : std::exchange(handed_, {})) leader->hand_over(std::move(sweep));
     }
-    Status stepped = conductor.step(monotonic_s());
-    if (stepped && conductor.leads()) {
+    Status stepped = leader->step(monotonic_s());
+    if (stepped && leader->leads()) {
       for (const DeviceHand* hand : {&projector_, &board_, &lens_}) {
         if (Status fit = hand->fit(); !fit) stepped = fit;
       }

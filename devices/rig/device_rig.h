@@ -9,8 +9,8 @@
 #include <thread>
 #include <vector>
 
-#include "devices/rig/conductor.h"
 #include "devices/rig/device_hand.h"
+#include "devices/rig/leader.h"
 #include "devices/rig/score.h"
 #include "devices/roles/rig.h"
 
@@ -35,7 +35,7 @@ class DeviceRig final : public Rig {
   void shutter(Side eye, ShutterLevel level, double time_s) override { gatherer_.shutter(eye, level, time_s); }
   void dark(double time_s) override;
 
-  int settle_sweeps() const override { return settings_.settle_sweeps; }
+  int settle_sweeps() const override { return settle_sweeps_; }
   bool retimes_at_once() const override { return false; }
   Status ready() override;
   double edge_near_s(double planned_s) const override;
@@ -52,6 +52,7 @@ class DeviceRig final : public Rig {
 
   DeviceRigSettings settings_;
   RigDevices devices_;
+  int settle_sweeps_;
   SweepGatherer gatherer_;  ///< of the one thread that hands over
   DeviceHand projector_;
   DeviceHand lens_;

@@ -14,6 +14,7 @@ struct DriveAbilities {
   bool sync_edge = true;            ///< gives out one edge at the start of each period
   double most_a = 0.0;              ///< either way: what goes beyond is cut by the driver, whatever it is told
   std::optional<int> most_samples;  ///< of a period; more are sampled again
+  bool steers = false;              ///< its periods may be drawn out and shifted while they play
 };
 
 /// One period of current, uniform samples from its start; played over and over.
@@ -30,6 +31,7 @@ struct DriveReport {
   double period_s = 0.0;         ///< as given out, by the device's own clock: what it could make of the one asked for
   std::uint64_t underruns = 0;   ///< gaps: the host came too late
   std::uint64_t clamped = 0;     ///< samples that were beyond the limit
+  double edge_late_s = 0.0;      ///< how much later than their periods sync edges are given out, in the mean
 };
 
 /// What gives the lenses their current, and the rig its beat. No current flows before `start` and after `stop`.
@@ -43,6 +45,11 @@ class LensDrive : public Device {
 
   /// Plays this from a period's start on, without a gap; says which one, counted as `DriveReport::periods` counts.
   virtual Result<std::uint64_t> refill(const DrivePeriod& period) = 0;
+
+  /// From the next period that is not given away yet, its periods last so long by its own clock, and once come so much
+  /// later (earlier, where negative), a hundredth of each at a time. "drive.unable" where the abilities do not have it,
+  /// and beyond a hundredth of the period that it was started with.
+  virtual Status steer(double period_s, double later_s);
 
   /// To zero within 100 ms, without a jump where the device allows; safe to call from a watchdog. False: it could not
   /// be told.

@@ -27,11 +27,21 @@ struct BoardTable {
   bool operator==(const BoardTable&) const = default;
 };
 
+/// The lens drive's edge as the board sees it against the sync edge, where that comes from a projector.
+struct LensEdge {
+  std::uint64_t edges = 0;  ///< seen since it was opened
+  double after_s = 0.0;     ///< the newest, since the newest sync edge, by the board's own clock: 0 to a period
+  double told_s = 0.0;      ///< when this was asked, on the monotonic clock
+
+  bool operator==(const LensEdge&) const = default;
+};
+
 struct BoardReport {
   bool armed = false;
   std::optional<double> period_s;  ///< as measured by the board's own clock; none without sync
   std::uint64_t edges = 0;         ///< seen since it was opened
   std::uint64_t bad_lines = 0;     ///< either way
+  std::optional<LensEdge> lens;    ///< none before the first, and from a board that has no input for it
 };
 
 /// What gives triggers and moves shutters, in step with the sync edge. Dark by itself (no triggers, shutters closed),

@@ -6,7 +6,9 @@
 
 #include "core/schedule/sweep_shape.h"
 #include "devices/catalog/catalog.h"
+#include "devices/catalog/device_drivers.h"
 #include "devices/rig/device_rig.h"
+#include "devices/runtime/tracker_setup.h"
 
 namespace focalstage {
 
@@ -84,6 +86,11 @@ Result<RuntimeOptions> runtime_options(const RigConfig& config) {
   options.network = config.network;
   options.clients = config.clients;
   options.drivers = device_drivers();
+  if (config.devices.tracker) {
+    Result<TrackerSetup> tracker = tracker_setup(*config.devices.tracker);
+    if (!tracker) return tracker.fault();
+    options.tracker = std::move(*tracker);
+  }
   return options;
 }
 

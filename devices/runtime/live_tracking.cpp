@@ -14,6 +14,21 @@ namespace {
 // How often the tracker is asked. Not longer than a frame of any: velocities are made of all of them.
 constexpr std::chrono::milliseconds tick{2};
 
+DevicePhase phase_of(TrackerPhase phase) {
+  switch (phase) {
+    case TrackerPhase::off:
+    case TrackerPhase::seeking:
+      return DevicePhase::off;
+    case TrackerPhase::tracking:
+      return DevicePhase::running;
+    case TrackerPhase::lost:
+      return DevicePhase::lost;
+    case TrackerPhase::refused:
+      return DevicePhase::refused;
+  }
+  return DevicePhase::off;
+}
+
 /// A tenth less than the time by which it must be noticed: a busy machine wakes the watch late.
 double silence_allowed_s() { return 0.9 * detection_s(Doubt::tracker, 0.0); }
 
@@ -77,6 +92,15 @@ Result<PosedProject> LiveTracking::pose(const Project& project) const {
 std::uint64_t LiveTracking::newest() const {
   const std::lock_guard lock(mutex_);
   return tracks_.newest() ? tracks_.newest()->count : 0;
+}
+
+RigPart LiveTracking::part() const {
+  const TrackerState state = setup_.tracker->state();
+  RigPart part{setup_.id, {}};
+  part.state.phase = phase_of(state.phase);
+  part.state.fault = state.fault;
+  if (const auto frame = setup_.tracker->newest()) part.state.heard_s = frame->arrival_s;
+  return part;
 }
 
 void LiveTracking::watch(std::set<std::string> bodies) {

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "core/base/result.h"
+#include "devices/roles/rig.h"
 #include "devices/runtime/body_tracks.h"
 #include "devices/runtime/pose_delay.h"
 
@@ -18,6 +19,7 @@ namespace focalstage {
 /// A rig's tracker, where it stands, and how things hang on its bodies.
 struct TrackerSetup {
   std::shared_ptr<Tracker> tracker;  ///< none: projects with `track` are refused when they are live
+  DeviceId id;                       ///< for people
   Rigid world_from_tracker;
   BodyMounts body_from_thing;
   MotionLimits motion;
@@ -51,6 +53,9 @@ class LiveTracking {
 
   /// What plays from now on stands at these bodies.
   void watch(std::set<std::string> bodies);
+
+  /// The tracker as a part of the rig: off until it was heard for the first time.
+  RigPart part() const;
 
   /// Outlives this in the shows that report their light to it.
   const std::shared_ptr<PoseDelay>& delay() const { return delay_; }

@@ -9,6 +9,7 @@
 #include <spdlog/spdlog.h>
 
 #include "devices/runtime/live_session.h"
+#include "devices/runtime/part_report.h"
 #include "devices/runtime/show_loader.h"
 #include "io/protocol/convert.h"
 
@@ -48,7 +49,10 @@ grpc::Status RigService::refused(const char* call, const Fault& fault) {
 RigState RigService::values() const {
   RigState state = rig_.state();
   state.holder = desk_.holder();
-  if (tracking_ != nullptr) state.pose_to_light_ms = 1e3 * tracking_->delay()->pose_to_light_s();
+  if (tracking_ != nullptr) {
+    state.pose_to_light_ms = 1e3 * tracking_->delay()->pose_to_light_s();
+    state.parts.push_back(report_of(tracking_->part()));
+  }
   return state;
 }
 

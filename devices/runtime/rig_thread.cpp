@@ -8,6 +8,7 @@
 #include <spdlog/spdlog.h>
 
 #include "devices/roles/clock.h"
+#include "devices/runtime/part_report.h"
 
 namespace focalstage {
 
@@ -264,9 +265,7 @@ RigState RigThread::state() const {
     state.lens_phase = sweeps - std::floor(sweeps);
   }
   for (const RigPart& part : rig_->parts()) {
-    state.parts.push_back({{part.id.driver, part.id.model, part.id.serial, part.id.address},
-                           name_of(part.state.phase),
-                           part.state.fault ? describe(*part.state.fault) : std::string()});
+    state.parts.push_back(report_of(part));
     for (const auto& [name, celsius] : part.state.temperatures) {
       state.temperatures.push_back({name, celsius});
       state.temperature_c = state.temperatures.size() == 1 ? celsius : std::max(state.temperature_c, celsius);

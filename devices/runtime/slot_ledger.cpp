@@ -25,6 +25,7 @@ void SlotLedger::begin_show(const std::shared_ptr<const LoadedShow>& show) {
     report.asked_power_d = report.delivered_power_d = slot.power_d;
     report.asked_smear_d = slot.smear_d;
     report.asked_s = report.delivered_s = slot.start_s;
+    report.unmeasured = !sees_light_;
     slots_.push_back(report);
   }
 }

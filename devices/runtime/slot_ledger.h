@@ -22,7 +22,7 @@ struct DeliveryTolerance {
 class SlotLedger {
  public:
   /// `sees_light`: a rig that cannot see its light says nothing of it, so that what was asked counts as neither
-  /// delivered nor missed.
+  /// delivered nor missed, and its slots as unmeasured.
   explicit SlotLedger(bool sees_light = true, const DeliveryTolerance& tolerance = {})
       : sees_light_(sees_light), tolerance_(tolerance) {}
 

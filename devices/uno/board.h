@@ -60,6 +60,7 @@ class UnoBoard final : public TriggerBoard {
   focalstage::Status beat(Dialogue& dialogue);
   focalstage::Status take_unasked(Dialogue& dialogue);
   void take_status(const Dialogue& dialogue, const StatusLine& status);
+  focalstage::Status ask_for_lens_edge(Dialogue& dialogue);
   focalstage::Status done(Dialogue& dialogue, const Job& job);
   void went_dark(unsigned reason);
   bool comes_first() const;
@@ -69,7 +70,9 @@ class UnoBoard final : public TriggerBoard {
   std::mutex lifecycle_;  ///< open and close, one after the other
   std::mutex asking_;     ///< one job at a time; `dark` does not take it
   std::jthread worker_;
-  double next_beat_s_ = 0.0;  ///< of the worker alone
+  double next_beat_s_ = 0.0;       ///< of the worker alone
+  bool has_lens_input_ = true;     ///< of the worker alone: until its firmware says that it knows no such thing
+  unsigned newest_lens_edge_ = 0;  ///< of the worker alone
 
   mutable std::mutex mutex_;  ///< what follows, for moments only
   std::condition_variable changed_;

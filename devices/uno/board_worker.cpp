@@ -24,6 +24,8 @@ void UnoBoard::run(Dialogue& dialogue) {
   // On a crowded machine half a second may pass before a thread of no rank gets its turn, and the board then goes dark.
   prefer_this_thread();
   next_beat_s_ = 0.0;
+  has_lens_input_ = true;
+  newest_lens_edge_ = 0;
   focalstage::Status going;
   while (going) {
     {
@@ -172,6 +174,21 @@ focalstage::Status UnoBoard::beat(Dialogue& dialogue) {
   if (!reply) return reply.fault().code == "uno.woken" ? focalstage::Status{} : reply.fault();
   next_beat_s_ = monotonic_s() + beat_s;
   if (const auto status = decode_status(reply->words)) take_status(dialogue, *status);
+  return has_lens_input_ ? ask_for_lens_edge(dialogue) : focalstage::Status{};
+}
+
+focalstage::Status UnoBoard::ask_for_lens_edge(Dialogue& dialogue) {
+  const double asked_s = monotonic_s();
+  const Result<Reply> reply = answer_to(dialogue, "LENS", silent_at_s(dialogue));
+  if (!reply) return reply.fault().code == "uno.woken" ? focalstage::Status{} : reply.fault();
+  has_lens_input_ = reply->kind != ReplyKind::error;
+  const auto lens = decode_lens(reply->words);
+  if (!lens || lens->edges == newest_lens_edge_) return {};
+  const std::lock_guard lock(mutex_);
+  const std::uint64_t before = report_.lens ? report_.lens->edges : 0;
+  const unsigned more = (lens->edges - newest_lens_edge_) & 0xFFFFU;
+  newest_lens_edge_ = lens->edges;
+  report_.lens = LensEdge{before + more, lens->after_s, asked_s};
   return {};
 }
 

@@ -117,6 +117,15 @@ std::optional<StatusLine> decode_status(std::string_view text) {
       static_cast<StatusLine::State>(numbers[0]), numbers[1], numbers[2], numbers[3] * tick_s, numbers[4], numbers[5]};
 }
 
+std::optional<LensLine> decode_lens(std::string_view text) {
+  const std::vector<std::string_view> words = words_of(text);
+  if (words.size() != 2) return std::nullopt;
+  const std::optional<unsigned> after = number_of(words[0]);
+  const std::optional<unsigned> edges = number_of(words[1]);
+  if (!after || !edges) return std::nullopt;
+  return LensLine{*after * tick_s, *edges};
+}
+
 std::optional<unsigned> decode_hello(std::string_view text) {
   const std::vector<std::string_view> words = words_of(text);
   if (words.size() != 3 || words[0] != "focalstage-uno") return std::nullopt;

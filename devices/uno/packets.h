@@ -44,6 +44,13 @@ struct StatusLine {
 };
 
 std::optional<StatusLine> decode_status(std::string_view words);
+/// What LENS says.
+struct LensLine {
+  double after_s = 0.0;  ///< by the board's own clock
+  unsigned edges = 0;
+};
+
+std::optional<LensLine> decode_lens(std::string_view words);
 /// The protocol's version that a HELLO's answer names.
 std::optional<unsigned> decode_hello(std::string_view words);
 

@@ -17,23 +17,26 @@ constexpr std::array<const char*, 3> eye_names{"left", "right", "both"};
 
 std::string eye_name(int eye) { return eye >= 0 && eye < 3 ? eye_names[static_cast<std::size_t>(eye)] : "?"; }
 
+/// What came of it is null where the rig can't see its light.
 Value value_of(const SlotReport& slot) {
+  const auto seen = [&](Value value) { return slot.unmeasured ? Value() : value; };
   Value value;
   value.set("slot", slot.slot);
   value.set("image", slot.image);
   value.set("eye", eye_name(slot.eye));
+  value.set("measured", !slot.unmeasured);
   value.set("asked_power_d", slot.asked_power_d);
-  value.set("delivered_power_d", slot.delivered_power_d);
+  value.set("delivered_power_d", seen(slot.delivered_power_d));
   value.set("asked_smear_d", slot.asked_smear_d);
-  value.set("delivered_smear_d", slot.delivered_smear_d);
+  value.set("delivered_smear_d", seen(slot.delivered_smear_d));
   value.set("asked_s", slot.asked_s);
-  value.set("delivered_s", slot.delivered_s);
-  value.set("right_image", slot.right_image);
-  value.set("own_shutter_open", slot.own_shutter_open);
-  value.set("other_shutter_closed", slot.other_shutter_closed);
-  value.set("delivered", slot.delivered);
-  value.set("exposures", static_cast<double>(slot.exposures));
-  value.set("missed", static_cast<double>(slot.missed));
+  value.set("delivered_s", seen(slot.delivered_s));
+  value.set("right_image", seen(slot.right_image));
+  value.set("own_shutter_open", seen(slot.own_shutter_open));
+  value.set("other_shutter_closed", seen(slot.other_shutter_closed));
+  value.set("delivered", seen(slot.delivered));
+  value.set("exposures", seen(static_cast<double>(slot.exposures)));
+  value.set("missed", seen(static_cast<double>(slot.missed)));
   return value;
 }
 
@@ -46,6 +49,21 @@ const char* yes_no(bool yes) { return yes ? "yes" : "NO"; }
 
 std::vector<std::string> row_of(const SlotReport& slot) {
   const double off_us = (slot.delivered_s - slot.asked_s) * 1e6;
+  if (slot.unmeasured) {
+    return {std::to_string(slot.slot),
+            eye_name(slot.eye),
+            std::to_string(slot.image),
+            signed_number(slot.asked_power_d, 3),
+            "-",
+            fixed_text(slot.asked_s * 1e3, 3),
+            "-",
+            "-",
+            "-",
+            "-",
+            "-",
+            "-",
+            "not measured"};
+  }
   return {std::to_string(slot.slot),
           eye_name(slot.eye),
           std::to_string(slot.image),
@@ -154,6 +172,9 @@ std::string state_text(const RigState& state) {
                              {"missed", true},
                              {"delivered"}},
                             rows);
+  if (std::ranges::all_of(state.slots, &SlotReport::unmeasured)) {
+    return text + "\nthis rig can't see its light: no slot was measured\n";
+  }
   return text + "\n" + std::to_string(delivered) + " of " + std::to_string(rows.size()) + " slots delivered\n";
 }
 

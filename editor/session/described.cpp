@@ -26,8 +26,13 @@ Value value_of(const RigStatus& rig) {
   value.set("live_revision", static_cast<double>(rig.live_revision));
   value.set("edit_to_light_ms", rig.edit_to_light_ms);
   std::size_t delivered = 0;
-  for (const SlotReport& slot : rig.state.slots) delivered += slot.delivered ? 1 : 0;
+  std::size_t measured = 0;
+  for (const SlotReport& slot : rig.state.slots) {
+    delivered += slot.delivered && !slot.unmeasured ? 1 : 0;
+    measured += slot.unmeasured ? 0 : 1;
+  }
   value.set("slots", static_cast<double>(rig.state.slots.size()));
+  value.set("slots_measured", static_cast<double>(measured));
   value.set("slots_delivered", static_cast<double>(delivered));
   return value;
 }

@@ -119,6 +119,7 @@ v1::SlotReport message_from(const SlotReport& slot) {
   message.set_delivered(slot.delivered);
   message.set_exposures(slot.exposures);
   message.set_missed(slot.missed);
+  message.set_unmeasured(slot.unmeasured);
   return message;
 }
 
@@ -139,6 +140,7 @@ SlotReport slot_from(const v1::SlotReport& message) {
   slot.delivered = message.delivered();
   slot.exposures = message.exposures();
   slot.missed = message.missed();
+  slot.unmeasured = message.unmeasured();
   return slot;
 }
 

@@ -39,6 +39,7 @@ struct SlotReport {
   std::uint64_t missed = 0;
   double asked_smear_d = 0.0;  ///< how much the power changes over the exposure
   double delivered_smear_d = 0.0;
+  bool unmeasured = false;  ///< the rig can't see its light: what is said to be delivered means nothing
 
   bool operator==(const SlotReport&) const = default;
 };

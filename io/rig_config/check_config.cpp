@@ -44,6 +44,35 @@ Status check_devices(const RigConfig& config) {
                "measure projector and glasses and write down what was found");
 }
 
+/// What a pose's schema cannot say: a rotation of four zeros has no direction.
+bool sound(const Rigid& pose) {
+  const double length = glm::length(pose.rotation);
+  return length > 0.9 && length < 1.1;
+}
+
+Status check_tracker(const TrackerConfig& tracker) {
+  const std::string place = "/devices/tracker";
+  const auto no_turn = [](const std::string& where) {
+    return fault(where + "/rotation_xyzw", "is no rotation", "give a unit quaternion, the real part last");
+  };
+  if (!sound(tracker.world_from_tracker)) return no_turn(place + "/world_from_tracker");
+  for (std::size_t i = 0; i < tracker.bodies.size(); ++i) {
+    const BodyConfig& body = tracker.bodies[i];
+    const std::string where = place + "/bodies/" + std::to_string(i);
+    for (std::size_t k = 0; k < i; ++k) {
+      if (tracker.bodies[k].name != body.name) continue;
+      return fault(where + "/name", "is that of /devices/tracker/bodies/" + std::to_string(k) + " again",
+                   "list each body once");
+    }
+    if (!sound(body.body_from_thing)) return no_turn(where + "/body_from_thing");
+    for (std::size_t k = 0; k < body.markers.size(); ++k) {
+      if (sound(body.markers[k].body_from_marker)) continue;
+      return no_turn(where + "/markers/" + std::to_string(k) + "/body_from_marker");
+    }
+  }
+  return {};
+}
+
 Status check_network(const NetworkConfig& network) {
   const int given = !network.certificate.empty() + !network.key.empty() + !network.client_ca.empty();
   if (given == 0 || given == 3) return {};
@@ -70,6 +99,9 @@ Status check_clients(const std::vector<ClientConfig>& clients) {
 Status check_config(const RigConfig& config) {
   if (config.kind == RigKind::devices) {
     if (Status devices = check_devices(config); !devices) return devices;
+  }
+  if (config.devices.tracker) {
+    if (Status tracker = check_tracker(*config.devices.tracker); !tracker) return tracker;
   }
   if (config.measured) {
     if (Status measured = check_measured(*config.measured); !measured) return measured;

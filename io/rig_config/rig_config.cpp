@@ -5,6 +5,7 @@
 #include "io/json/checked_value.h"
 #include "io/project/validate.h"
 #include "io/rig_config/check_config.h"
+#include "io/rig_config/read_tracker.h"
 
 namespace focalstage {
 namespace {
@@ -18,21 +19,15 @@ void read(const Value& object, std::string_view key, fs::path& into, const fs::p
 }
 
 void read(const Value& object, std::string_view key, std::optional<DeviceConfig>& into) {
-  const Value* value = object.find(key);
-  if (value == nullptr) return;
-  into.emplace();
-  read(*value, "driver", into->driver);
-  read(*value, "serial", into->serial);
-  read(*value, "address", into->address);
-  if (const Value* settings = value->find("settings")) into->settings = *settings->object();
+  if (const Value* value = object.find(key)) into = device_from(*value);
 }
 
-DevicesConfig devices_from(const Value& value) {
+DevicesConfig devices_from(const Value& value, const fs::path& folder) {
   DevicesConfig devices;
   read(value, "projector", devices.projector);
   read(value, "lens_drive", devices.lens_drive);
   read(value, "trigger_board", devices.trigger_board);
-  read(value, "tracker", devices.tracker);
+  if (const Value* tracker = value.find("tracker")) devices.tracker = tracker_from(*tracker, folder);
   return devices;
 }
 
@@ -134,7 +129,7 @@ RigConfig config_from(const Value& value, const fs::path& folder) {
     read(*rig, "name", config.name);
     if (text_of(*rig, "kind") == "devices") config.kind = RigKind::devices;
   }
-  if (const Value* devices = value.find("devices")) config.devices = devices_from(*devices);
+  if (const Value* devices = value.find("devices")) config.devices = devices_from(*devices, folder);
   if (const Value* measured = value.find("measured")) config.measured = measured_from(*measured);
   if (const Value* limits = value.find("limits")) config.limits = limits_from(*limits);
   if (const Value* network = value.find("network")) {

@@ -10,27 +10,17 @@
 #include "core/base/result.h"
 #include "core/base/sides.h"
 #include "core/scene/project.h"
-#include "core/scene/value.h"
+#include "io/rig_config/tracker_config.h"
 
 namespace focalstage {
 
 enum class RigKind { sim, devices };
 
-/// One device as the file names it. The settings are the driver's own: texts, numbers and booleans in the file's order.
-struct DeviceConfig {
-  std::string driver;
-  std::string serial;   ///< empty: the only one there is
-  std::string address;  ///< empty: found by the serial
-  Value::Object settings;
-
-  bool operator==(const DeviceConfig&) const = default;
-};
-
 struct DevicesConfig {
   std::optional<DeviceConfig> projector;
   std::optional<DeviceConfig> lens_drive;
   std::optional<DeviceConfig> trigger_board;
-  std::optional<DeviceConfig> tracker;
+  std::optional<TrackerConfig> tracker;
 
   bool operator==(const DevicesConfig&) const = default;
 };

@@ -16,7 +16,7 @@ import zlib
 import h5py
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "wire"))
-from harness import BIN, focalstage, folder, main, succeed  # noqa: E402
+from harness import BIN, focalstage, folder, free_port, main, small_project, succeed, write_project  # noqa: E402
 
 PERIOD_S = 1 / 60
 POWER_D = 0.02
@@ -24,6 +24,7 @@ TIME_S = 20e-6
 LENS = {"gain_d_per_a": 38.0, "lag_s": 0.0006, "delay_s": 0.0001}
 # devices/roles/detection.h, and one sweep
 DARK_WITHIN_S = {"lens": 0.025 + PERIOD_S, "board": 0.5 + PERIOD_S, "projector": 1.0 + PERIOD_S}
+TRACKER_DARK_WITHIN_S = 0.1 + PERIOD_S
 # What the fault says first: without the lens drive it is the board that misses its edges.
 NAMED = {"lens": ("sync edge", "lens drive"), "board": ("trigger board",), "projector": ("projector",)}
 
@@ -62,8 +63,8 @@ def rig_json(at):
 class EmulatedRig:
     """rig-emulator with a runtime beside it."""
 
-    def __init__(self, at, *options):
-        (at / "rig.json").write_text(json.dumps(rig_json(at)))
+    def __init__(self, at, *options, config=None):
+        (at / "rig.json").write_text(json.dumps(config or rig_json(at)))
         self.report_path = at / "report.jsonl"
         self.log = open(at / "log", "w")
         self.process = subprocess.Popen(
@@ -112,8 +113,8 @@ class EmulatedRig:
 
 
 @contextlib.contextmanager
-def emulated(at, *options):
-    rig = EmulatedRig(at, *options)
+def emulated(at, *options, config=None):
+    rig = EmulatedRig(at, *options, config=config)
     try:
         yield rig
     except BaseException:
@@ -182,6 +183,7 @@ def test_plays_ten_seconds():
         rig.until(lambda: rig.tell("time")["time_s"] > from_s + 10.0, "ten seconds", 60.0)
         state = rig.state()
         assert state["state"] == "playing" and state["missed_exposures"] == 0, state
+        assert all(not slot["measured"] and slot["delivered"] is None for slot in state["slots"]), state["slots"]
         lights = [light for light in rig.light() if light["start_s"] > from_s + 0.5]
         worst_d, worst_s, counts = hold_against(slots, lights)
         lit = [count for count, slot in zip(counts, slots) if slot["lit"]]
@@ -262,6 +264,87 @@ def test_a_trigger_that_comes_to_nothing():
         print(f"dark {1e3 * (last_s - lost_s):.0f} ms after it, {len(wrong)} exposures with another's picture")
 
 
+class Tracker:
+    """A NatNet server with a body "Box" at rest at (0, 0.5, -1); unplugged, it is killed."""
+
+    def __init__(self):
+        self.port = free_port()
+        self.process = None
+        self.plug()
+
+    def plug(self):
+        self.process = subprocess.Popen([BIN / "natnet-server", "--port", str(self.port), "--rate", "120"],
+                                        stdout=subprocess.DEVNULL)
+
+    def unplug(self):
+        self.process.kill()
+        self.process.wait()
+
+    def config(self):
+        """It stands so that the box is where the project's own stands, before the screen."""
+        return {"driver": "natnet", "address": "127.0.0.1",
+                "settings": {"cast": "unicast", "command_port": self.port, "data_port": 0},
+                "world_from_tracker": {"position_m": [0, -0.5, 0.6]},
+                "bodies": [{"name": "Box", "body_from_thing": {"position_m": [0, 0, -0.115]}}]}
+
+
+class Hand:
+    """An editor's hand on the rig: holds it live with a project."""
+
+    def __init__(self, rig, file):
+        self.process = subprocess.Popen([BIN / "live-hand", rig.address, file], stdin=subprocess.PIPE,
+                                        stdout=subprocess.PIPE, text=True)
+
+    def says(self, word):
+        self.process.stdin.write(word + "\n")
+        self.process.stdin.flush()
+        return self.process.stdout.readline().strip()
+
+    def end(self):
+        self.process.stdin.close()
+        self.process.wait(20)
+
+
+def test_tracker_unplugged_and_plugged_in():
+    """What plays live at a body goes dark when its tracker falls silent, and plays again once that is back."""
+    with folder() as at:
+        tracker = Tracker()
+        config = rig_json(at)
+        config["devices"]["tracker"] = tracker.config()
+        config["measured"]["projector"].update(width_px=96, height_px=64)
+        hand = None
+        try:
+            with emulated(at, "--width", "96", "--height", "64", config=config) as rig:
+                project = small_project(frames=1)
+                del project["objects"][0]["keys"]
+                project["objects"][0]["track"] = "Box"
+                file = write_project(at / "small", project)
+                succeed("adopt-rig", at / "small", "--to", rig.address)
+                rig.until(lambda: rig.state()["parts"][-1]["phase"] == "running", "a tracker that is heard")
+                hand = Hand(rig, file)
+                for _ in range(2):
+                    lit = len(rig.light())
+                    rig.until(lambda: hand.says("go") == "done" and hand.says("play") == "done", "play")
+                    rig.until(lambda: len(rig.light()) > lit + 60, "light")
+                    assert rig.state()["state"] == "playing", rig.state()
+                    out_s = rig.tell("time")["time_s"]
+                    tracker.unplug()
+                    rig.until(lambda: rig.state()["state"] == "dark", "dark without the tracker")
+                    state = rig.state()
+                    assert "rig.tracker" in state["fault"] and "Box" in state["fault"], state["fault"]
+                    assert state["parts"][-1]["driver"] == "natnet" and state["parts"][-1]["phase"] == "lost", state["parts"]
+                    rig.until(lambda: rig.tell("time")["time_s"] > out_s + 0.5, "half a second")
+                    last = max(light["start_s"] + light["exposure_s"] for light in rig.light())
+                    assert last - out_s <= TRACKER_DARK_WITHIN_S, last - out_s
+                    print(f"tracker: no light after {1e3 * (last - out_s):.1f} ms; {state['fault']}")
+                    tracker.plug()
+                    rig.until(lambda: rig.state()["parts"][-1]["phase"] == "running", "a tracker that is heard again")
+        finally:
+            if hand:
+                hand.end()
+            tracker.unplug()
+
+
 if __name__ == "__main__":
     main([test_plays_ten_seconds, test_board_clock_half_a_percent_off, test_a_lens_that_is_not_as_measured,
-          test_unplugged_and_plugged_in, test_a_trigger_that_comes_to_nothing])
+          test_unplugged_and_plugged_in, test_tracker_unplugged_and_plugged_in, test_a_trigger_that_comes_to_nothing])

@@ -2,6 +2,7 @@
 """Pushing under bad luck: damaged shows, killed clients, a killed rig, a second rig on the same port."""
 
 import hashlib
+import json
 import os
 import random
 import shutil
@@ -158,7 +159,10 @@ def test_full_disk_in_a_push():
         if mounted.returncode != 0:
             return "not run: needs root to mount a small tmpfs"
         try:
-            with rig(at) as address:
+            # So slow that a push is still under way long after its first chunk, however busy this machine is.
+            slow = at / "slow.json"
+            slow.write_text(json.dumps({"focalstage_rig": 1, "network": {"push_bytes_per_s": 1e6}}))
+            with rig(at, "--config", str(slow)) as address:
                 small = compiled(at, address, "small", small_project(frames=2))
                 show = compiled(at, address, project=big_show(frames=40))
                 succeed("push", small, "--to", address, "--activate")

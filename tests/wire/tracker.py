@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """A rig with a tracker: recorded again from a recording, and the trackers that there are not."""
 
+import json
 import subprocess
 import time
 
-from harness import RUNTIME, USAGE, folder, main, rig, succeed
+from harness import INVALID, RUNTIME, USAGE, folder, main, rig, succeed
 
 HEAD = """# focalstage tracking 1
 frame,time_s,latency_s,arrival_s,id,name,tracked,x_m,y_m,z_m,qx,qy,qz,qw,mean_error_m
@@ -37,9 +38,36 @@ def test_a_recording_is_a_tracker_and_is_recorded_again():
         assert all(body(line) in asked for line in lines[2:]), lines[2]
 
 
-def refused(*options):
+def rig_json(at, tracker):
+    (at / "rig.json").write_text(json.dumps({"focalstage_rig": 1, "devices": {"tracker": tracker}}))
+    return str(at / "rig.json")
+
+
+def test_a_file_names_the_tracker():
+    """The same tracker from rig.json, a path of which is relative to it; said once more on the command line it is no other."""
+    with folder() as at:
+        walk(at / "walk.csv")
+        config, again = rig_json(at, {"driver": "recording", "file": "walk.csv", "bodies": [{"name": "Card"}]}), at / "again.csv"
+        with rig(at, "--config", config, "--record-tracker", str(again)) as address:
+            time.sleep(0.5)
+            parts = succeed("rig", "state", "--to", address, "--json").json()["parts"]
+            assert [(part["driver"], part["phase"], part["address"]) for part in parts] == [
+                ("sim", "running", "in this program"), ("recording", "running", str(at / "walk.csv"))], parts
+        assert len(again.read_text().splitlines()) > 20
+        config = rig_json(at, {"driver": "recording", "file": "walk.csv"})
+        with rig(at, "--config", config, "--tracker", f"recording:{at}/walk.csv"):
+            pass
+        err = refused("--store", at, "--config", config, "--tracker", "natnet:127.0.0.1")
+        assert f"{config}: /devices/tracker" in err and "--tracker natnet:127.0.0.1" in err, err
+        err = refused("--store", at, "--config", rig_json(at, {"driver": "natnet", "settings": {"cast": 1}}), status=INVALID)
+        assert "/devices/tracker/settings/cast" in err, err
+        err = refused("--store", at, "--config", rig_json(at, {"driver": "recording", "file": "none.csv"}), status=INVALID)
+        assert "recording.unreadable" in err and f"{at}/none.csv" in err, err
+
+
+def refused(*options, status=USAGE):
     done = subprocess.run([RUNTIME, "--listen", "127.0.0.1:0", *map(str, options)], capture_output=True, text=True, timeout=60)
-    assert done.returncode == USAGE and done.stdout == "", done
+    assert done.returncode == status and done.stdout == "", done
     return done.stderr
 
 
@@ -53,4 +81,4 @@ def test_trackers_that_there_are_not():
 
 
 if __name__ == "__main__":
-    main([test_a_recording_is_a_tracker_and_is_recorded_again, test_trackers_that_there_are_not])
+    main([test_a_recording_is_a_tracker_and_is_recorded_again, test_a_file_names_the_tracker, test_trackers_that_there_are_not])

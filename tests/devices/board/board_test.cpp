@@ -389,3 +389,49 @@ TEST_CASE("what cannot be is refused, and SAFE is darkness at once") {
   board.run_for(100 * ms);
   CHECK(board.trigger.size() == changes);
 }
+
+TEST_CASE("a projector's own edges: no trigger leaves, shutters move, and the lens drive's edge is told against them") {
+  Board board;
+  board.run_for(2 * ms);
+  CHECK(board.ask("LENS") == "OK 0 0");
+  board.sync_every(period_60_hz);
+  board.run_for(100 * ms);
+  load(board, {});
+  REQUIRE(board.ask("ARM") == "OK");
+  board.run_for(50 * ms);
+  board.left.clear();
+  board.right.clear();
+  double worst_early_us = 0.0;
+  double worst_late_us = 0.0;
+  constexpr int looks = 400;
+  int hardly_late = 0;
+  board.lens_edge_at(board.now());  // from here on something is wired to it, and low
+  board.run_for(ms);
+  for (int i = 0; i < looks; ++i) {
+    // All over the period, also where the sync edge and the shutters are, with the line full of questions.
+    for (const std::size_t edges = board.edges.size(); board.edges.size() == edges;) board.run_for(100);
+    const Cycle edge = board.edges.back();
+    const auto meant = static_cast<Cycle>(period_60_hz * (i + 1.0) / looks);
+    board.lens_edge_at(edge + meant);
+    board.run_until(edge + meant + 4000);
+    const std::string told = board.ask("LENS");
+    REQUIRE(told.starts_with("OK "));
+    const double ticks = std::stod(told.substr(3));
+    const double off_us = 0.5 * ticks - static_cast<double>(meant) / 16.0;
+    const double period_us = period_60_hz / 16.0;
+    const double late_us = off_us - period_us * std::round(off_us / period_us);
+    hardly_late += late_us <= 0.5 ? 1 : 0;
+    worst_early_us = std::min(worst_early_us, late_us);
+    worst_late_us = std::max(worst_late_us, late_us);
+    CHECK(std::stoi(told.substr(told.rfind(' ') + 1)) == i + 1);
+  }
+  MESSAGE("lens edges told from ", worst_early_us, " us to ", worst_late_us, " us late");
+  CHECK(worst_early_us >= -1.0);
+  CHECK(worst_late_us <= 40.0);
+  CHECK(hardly_late >= looks * 98 / 100);  // the others came while another interrupt was at work
+  CHECK(board.trigger.empty());
+  CHECK_FALSE(board.trigger_high);
+  CHECK(board.left.size() >= looks);
+  CHECK(board.right.size() >= looks);
+  CHECK(board.ask("STAT").starts_with("OK 2 "));
+}

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "devices/catalog/device_drivers.h"
 #include "devices/catalog/settings_reader.h"
 
 namespace focalstage {
@@ -43,11 +44,36 @@ TEST_CASE("what cannot be is named by its place in the file") {
   CHECK(place_of(devices) == "/devices/lens_drive/settings/samples");
   devices.lens_drive = device("mcc1208", {{"enable_high", "yes"}});
   CHECK(place_of(devices) == "/devices/lens_drive/settings/enable_high");
+  devices.lens_drive = device("optotune");
+  CHECK(place_of(devices) == "/devices/lens_drive/driver");
+  CHECK(make_rig_devices(devices).fault().remedy.find("analogue input") != std::string::npos);
+  devices = sound();
+  devices.projector = device("lightcrafter", {{"gap", "none"}});
+  CHECK(place_of(devices) == "/devices/projector/settings/gap");
+  devices.projector = device("lightcrafter", {{"brightness", 1.5}});
+  CHECK(place_of(devices) == "/devices/projector/settings/brightness");
   devices = sound();
   devices.trigger_board = device("mega");
   CHECK(place_of(devices) == "/devices/trigger_board/driver");
   devices.trigger_board.reset();
   CHECK(place_of(devices) == "/devices/trigger_board");
+}
+
+TEST_CASE("a LightCrafter is a rig's projector, and the master of its time") {
+  DevicesConfig devices = sound();
+  devices.projector = device(
+      "lightcrafter",
+      {{"gap", "dark_entry"}, {"shown_bits", 1}, {"display_name", "DLP4500"}, {"input_source", 8}, {"rate_hz", 60}});
+  const auto made = make_rig_devices(devices);
+  REQUIRE(made);
+  CHECK(made->projector->state().phase == DevicePhase::off);
+  CHECK(made->projector->abilities().pacing == Pacing::master);
+}
+
+TEST_CASE("each driver that has something to plug in can be asked what there is") {
+  std::vector<std::string> names;
+  for (const auto& [name, driver] : device_drivers()) names.push_back(name);
+  CHECK(names == std::vector<std::string>{"camera", "lightcrafter", "mcc1208", "optotune", "uno"});
 }
 
 TEST_CASE("what is not plugged in cannot show itself, and says so") {

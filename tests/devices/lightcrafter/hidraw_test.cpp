@@ -1,9 +1,11 @@
 #include <doctest/doctest.h>
 #include <umockdev.h>
 
+#include <algorithm>
 #include <thread>
 
 #include "devices/lightcrafter/control.h"
+#include "devices/lightcrafter/identify.h"
 #include "devices/lightcrafter/lightcrafter.h"
 #include "devices/lightcrafter/probe.h"
 #include "devices/roles/clock.h"
@@ -50,6 +52,7 @@ TEST_CASE("over hidapi: found, told, unplugged and found again on another node")
   const auto projector = make_lightcrafter(settings, std::move(made));
   REQUIRE(projector->open().ok());
   CHECK(projector->id().serial == "LCR4-17");
+  CHECK(identify_lightcrafter("LCR4-17").fault().code == "projector.busy");
   Exposures exposures;
   exposures.period_s = 1.0 / 60.0;
   exposures.form.bits = 1;
@@ -101,6 +104,19 @@ TEST_CASE("over hidapi: round trips") {
   REQUIRE(link.write(lightcrafter::Command::mailbox_control, std::array<std::uint8_t, 1>{2}).ok());
   REQUIRE(link.write(lightcrafter::Command::mailbox_data, lightcrafter::Bytes(72, 0x71)).ok());
   CHECK(board.refusals() == 0);
+}
+
+TEST_CASE("it glows to be found, without a video output, and is dark afterwards") {
+  Usb usb;
+  CHECK(identify_lightcrafter("").fault().code == "projector.absent");
+  Board board;
+  const auto host = HidrawHost::start(usb.bed, board, "LCR4-18");
+  REQUIRE(identify_lightcrafter("LCR4-18").ok());
+  CHECK_FALSE(board.running());
+  const auto history = board.history();
+  constexpr std::uint16_t led_enable = 0x1A07;
+  CHECK(std::ranges::count(history, led_enable) >= 6);
+  CHECK(identify_lightcrafter("LCR4-18").ok());  // it was given back
 }
 
 }  // namespace

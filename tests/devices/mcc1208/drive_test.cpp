@@ -1,6 +1,7 @@
 #include "devices/mcc1208/drive.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <doctest/doctest.h>
 
@@ -204,6 +205,41 @@ TEST_CASE("stops from a watchdog while others start: no current when all is said
     CHECK(at_rest(bench));
     CHECK_FALSE(enabled(bench));
   }
+}
+
+TEST_CASE("steered, it plays another length and phase without a gap, and says how late its edges are") {
+  Bench bench;
+  const auto drive = make_mcc1208(bench_settings());
+  CHECK(drive->abilities().steers);
+  REQUIRE(drive->open().ok());
+  CHECK(drive->steer(1.0 / 60.0, 0.0).fault().code == "drive.off");
+  REQUIRE(drive->start(sine(0.1)).ok());
+  CHECK(drive->steer(1.0 / 59.0, 0.0).fault().code == "drive.unable");
+  CHECK(drive->steer(1.0 / 60.0, NAN).fault().code == "drive.unable");
+  wait_s(0.2);
+  constexpr double period_s = 1.0 / 59.94;
+  REQUIRE(drive->steer(period_s, 0.002).ok());
+  const std::size_t steered_at = bench.scan_count();
+  REQUIRE(until([&] { return bench.scan_count() > steered_at + 48000; }, 20.0));
+  const DriveReport report = drive->report();
+  const auto played = from_first_edge(bench.scans());
+  drive->stop();
+  CHECK(report.underruns == 0);
+  CHECK(report.period_s == doctest::Approx(period_s).epsilon(1e-12));
+  CHECK(report.edge_late_s >= 0.0);
+  CHECK(report.edge_late_s < 1.0 / 24e3);
+  std::vector<double> edges_s;
+  for (std::size_t i = 1; i < played.size(); ++i) {
+    CHECK(*played[i].scan == *played[i - 1].scan + 1);
+    if (played[i].codes[1] > 2048 && played[i - 1].codes[1] < 2048) edges_s.push_back(played[i].time_s);
+  }
+  REQUIRE(edges_s.size() > 100);
+  const double last_s = edges_s.back() - edges_s[edges_s.size() - 61];
+  CHECK(last_s == doctest::Approx(60 * period_s).epsilon(5e-5));  // a scan in a second
+  const double all_s = edges_s.back() - edges_s.front();
+  const double lengths = all_s / period_s;
+  // Before it, periods of 60 Hz; in it, 2 ms more.
+  CHECK(std::abs(all_s - 0.002 - std::round(lengths) * period_s) < 0.001);
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ struct Stand {
       for (std::size_t i = 0; i < now->trigger_s.size(); ++i) sweep.pictures.push_back(test::picture(code));
     }
     conductor.hand_over(std::move(sweep));
-    next_s = edge_near_s(*test::devices_of(hands).lens, next_s + period_s);
+    next_s = edge_near_s(test::devices_of(hands), next_s + period_s);
   }
 };
 
@@ -141,11 +141,11 @@ TEST_CASE("light that was due while nothing was ready yet is a doubt") {
 TEST_CASE("the beat is followed a tenth of the way each sweep") {
   Stagehands hands;
   const RigDevices devices = test::devices_of(hands);
-  CHECK(edge_near_s(*devices.lens, 1.0) == 1.0);
+  CHECK(edge_near_s(devices, 1.0) == 1.0);
   REQUIRE(devices.lens->start({}));
   hands.run_until(0.5);
   double edge_s = 0.5;
-  for (int i = 0; i < 200; ++i) edge_s = edge_near_s(*devices.lens, edge_s + period_s);
+  for (int i = 0; i < 200; ++i) edge_s = edge_near_s(devices, edge_s + period_s);
   const double turns = (edge_s - hands.first_edge_s) / period_s;
   CHECK(turns == doctest::Approx(std::round(turns)).epsilon(1e-6));
 }

@@ -70,6 +70,18 @@ struct Stand {
   }
 };
 
+TEST_CASE("a projector that keeps its own time is refused, and nothing is given out") {
+  Stand stand;
+  {
+    const std::lock_guard lock(stand.hands.mutex);
+    stand.hands.pacing = Pacing::master;
+  }
+  const Status ready = stand.rig->ready();
+  REQUIRE(!ready);
+  CHECK(ready.fault().where == "projector");
+  CHECK(stand.safe());
+}
+
 TEST_CASE("lights, and is dark on every device within 50 ms of being told") {
   Stand stand;
   REQUIRE(stand.rig->ready());

@@ -32,6 +32,7 @@ struct Stagehands {
   bool lens_on = false;
   bool board_armed = false;
   bool projector_on = false;
+  Pacing pacing = Pacing::triggered;
 
   DeviceState lens_state{DevicePhase::ready, {}, 0.0, {}};
   DeviceState board_state{DevicePhase::ready, {}, 0.0, {}};
@@ -185,7 +186,10 @@ class FakeProjector final : public ProjectorDevice {
     return all_.projector_state;
   }
   Status identify() override { return {}; }
-  ProjectorAbilities abilities() const override { return {8, 4, Pacing::triggered, 0.0, 3}; }
+  ProjectorAbilities abilities() const override {
+    const std::lock_guard lock(all_.mutex);
+    return {8, 4, all_.pacing, 0.0, 3};
+  }
   Status arm(const Exposures& exposures) override {
     const std::lock_guard lock(all_.mutex);
     all_.exposures.push_back(exposures);

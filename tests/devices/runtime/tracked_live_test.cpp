@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 #include <spdlog/spdlog.h>
 
-#include "devices/runtime/make_tracker.h"
 #include "devices/runtime/runtime.h"
 #include "io/project/project_file.h"
 #include "tests/devices/runtime/fake_tracker.h"
@@ -155,15 +154,6 @@ TEST_CASE("without a tracker a tracked project is refused, by name") {
   stand.begin(tracked_project());
   REQUIRE(stand.answers->wait_refused(1));
   CHECK(stand.answers->refused[0].fault.code == "rig.tracker");
-}
-
-TEST_CASE("trackers by name, and names of none") {
-  CHECK(make_tracker("natnet:127.0.0.1").ok());
-  CHECK(make_tracker("natnet-unicast:127.0.0.1").ok());
-  for (const char* text : {"", "natnet", "natnet:", "recording:", "vicon:host"}) {
-    CHECK(make_tracker(text).fault().code == "tracker.unknown");
-  }
-  CHECK(make_tracker("recording:/nowhere").fault().code == "recording.unreadable");
 }
 
 }  // namespace

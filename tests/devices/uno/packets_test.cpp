@@ -81,6 +81,17 @@ TEST_CASE("status and name") {
   CHECK_FALSE(uno::decode_hello("focalstage-uno one 8"));
 }
 
+TEST_CASE("the lens drive's edge, as LENS tells it") {
+  const auto lens = uno::decode_lens("12582 65535");
+  REQUIRE(lens);
+  CHECK(lens->after_s == doctest::Approx(0.006291));
+  CHECK(lens->edges == 65535);
+  for (const char* bad : {"", "1", "1 2 3", "1 x", "-1 2", "65536 1", "1  2"}) {
+    CAPTURE(bad);
+    CHECK_FALSE(uno::decode_lens(bad));
+  }
+}
+
 TEST_CASE("any one damaged byte is noticed, and random bytes are never an answer nor the end of reading") {
   const std::string line = board_says("12 OK 2 0 3 33333 812 1");
   for (std::size_t at = 0; at < line.size(); ++at) {

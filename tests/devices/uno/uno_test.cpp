@@ -211,3 +211,21 @@ TEST_CASE("the level that opens is the settings' own") {
     CHECK(uno.chip().right_high);
   });
 }
+
+TEST_CASE("where a projector is the clock, the lens drive's edge is told against its own") {
+  PluggedIn rig;
+  REQUIRE(rig.uno->open().ok());
+  REQUIRE(rig.is_synced());
+  CHECK_FALSE(rig.uno->report().lens);
+  rig.board.with([](UnoEmulator& emulator) {
+    Chip& chip = emulator.chip();
+    const double period = 16e6 / 60.0;
+    chip.lens_edge_at(chip.now());  // something is wired to it now, and low
+    for (int k = 2; k < 240; ++k) chip.lens_edge_at(chip.edges.back() + static_cast<Cycle>(k * period + 80'000));
+    return 0;
+  });
+  REQUIRE(rig.soon([&] { return rig.uno->report().lens && rig.uno->report().lens->edges > 60; }));
+  const LensEdge lens = *rig.uno->report().lens;
+  CHECK(lens.after_s == doctest::Approx(0.005).epsilon(0.01));
+  CHECK(lens.told_s > 0.0);
+}

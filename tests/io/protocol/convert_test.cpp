@@ -46,7 +46,7 @@ RigState state() {
   state.temperature_c = 31.5;
   state.fault = "somewhere: something (rig.late)";
   state.slots = {{1, 2, 1, -0.5, -0.51, 0.003, 0.0031, true, false, true, false, 99, 1, 0.28, 0.29},
-                 {2, 3, 0, 0.5, 0.5, 0.004, 0.004, false, true, false, true, 7, 0, 0.02, 0.03}};
+                 {2, 3, 0, 0.5, 0.5, 0.004, 0.004, false, true, false, true, 7, 0, 0.02, 0.03, true}};
   state.holder = "anna:1";
   state.frame = 12;
   state.late_sweeps = 4;

@@ -18,7 +18,12 @@ constexpr const char* whole = R"({
     "projector": {"driver": "lightcrafter", "serial": "LC 1", "settings": {"zoom": 2, "after": "x", "invert": true}},
     "lens_drive": {"driver": "mcc1208", "address": "usb 1-2"},
     "trigger_board": {"driver": "uno"},
-    "tracker": {"driver": "natnet", "address": "192.168.1.5:1511"}
+    "tracker": {"driver": "aruco", "settings": {"fx_px": 900},
+                "camera": {"driver": "pictures", "folder": "seen", "settings": {"rate_hz": 25}}, "file": "walk.csv",
+                "world_from_tracker": {"position_m": [1, 2, 3], "rotation_xyzw": [0, 0.6, 0, 0.8]},
+                "bodies": [{"name": "wand", "id": 3, "body_from_thing": {"position_m": [0, 0, 0.1]},
+                            "markers": [{"marker": 7, "size_m": 0.05, "body_from_marker": {"rotation_xyzw": [1, 0, 0, 0]}}]},
+                           {"name": "table", "board": {"squares_x": 5, "squares_y": 7, "square_m": 0.04, "marker_m": 0.03}}]}
   },
   "measured": {
     "projector": {"model": "lightcrafter4500", "width_px": 912, "height_px": 1140, "frames_per_second": 4225, "bits": 1,
@@ -76,7 +81,16 @@ TEST_CASE("everything the file says arrives") {
   CHECK(config.devices.projector->settings == Value::Object{{"zoom", 2.0}, {"after", "x"}, {"invert", true}});
   CHECK(config.devices.lens_drive->address == "usb 1-2");
   CHECK(config.devices.trigger_board->settings.empty());
-  CHECK(config.devices.tracker->driver == "natnet");
+  REQUIRE(config.devices.tracker);
+  const TrackerConfig& tracker = *config.devices.tracker;
+  CHECK(tracker.device == DeviceConfig{"aruco", "", "", {{"fx_px", 900.0}}});
+  CHECK(tracker.camera == DeviceConfig{"pictures", "", "", {{"rate_hz", 25.0}}});
+  CHECK(tracker.camera_folder == "/srv/rig/seen");
+  CHECK(tracker.file == "/srv/rig/walk.csv");
+  CHECK(tracker.world_from_tracker == Rigid{{1, 2, 3}, {0.8, 0, 0.6, 0}});
+  REQUIRE(tracker.bodies.size() == 2);
+  CHECK(tracker.bodies[0] == BodyConfig{"wand", 3, {{7, 0.05, {{}, {0, 1, 0, 0}}}}, {}, {{0, 0, 0.1}, {1, 0, 0, 0}}});
+  CHECK(tracker.bodies[1] == BodyConfig{"table", {}, {}, BodyBoardConfig{5, 7, 0.04, 0.03}, {}});
   REQUIRE(config.measured);
   CHECK(config.measured->projector.model == "lightcrafter4500");
   CHECK(config.measured->projector.width_px == 912);
@@ -145,6 +159,11 @@ TEST_CASE("what a schema cannot say is refused too") {
   refusal(R"("frequency_hz": 0, "gain_d_per_a": 36)", R"("frequency_hz": 1, "gain_d_per_a": 36)",
           "/measured/glasses/lens_response/right/0/frequency_hz");
   refusal(R"("lens_max_d": 3.5)", R"("lens_max_d": -3)", "/measured/glasses/lens_max_d");
+  refusal(R"("rotation_xyzw": [0, 0.6, 0, 0.8])", R"("rotation_xyzw": [0, 0, 0, 0])",
+          "/devices/tracker/world_from_tracker/rotation_xyzw");
+  refusal(R"("rotation_xyzw": [1, 0, 0, 0])", R"("rotation_xyzw": [1, 1, 0, 0])",
+          "/devices/tracker/bodies/0/markers/0/body_from_marker/rotation_xyzw");
+  refusal(R"("name": "table")", R"("name": "wand")", "/devices/tracker/bodies/1/name");
   refusal(R"("key": "/etc/rig.key",)", "", "/network");
   refusal(R"("name": "desk", )", "", "/clients/0");
   CHECK(refused(R"({"focalstage_rig": 1, "rig": {"kind": "devices"}})").where == "rig.json: /devices/projector");

@@ -134,6 +134,8 @@ int main(int argc, char** argv) {
   app.add_option("--report", settings.report, "file for what was lit: JSON lines")->required();
   app.add_option("--clock-ppm", settings.board_clock_ppm, "by which the board's clock is fast")->capture_default_str();
   app.add_option("--lens-lag-s", settings.lens.lag_s, "of the lenses")->capture_default_str();
+  app.add_option("--width", settings.optics.width_px, "of the projector's pictures")->capture_default_str();
+  app.add_option("--height", settings.optics.height_px, "of the projector's pictures")->capture_default_str();
   app.add_option("command", command, "what to run")->required();
   CLI11_PARSE(app, argc, argv);
   auto generator = focalstage::mcc1208_emulator::Emulator::create();

@@ -9,6 +9,7 @@
 #include <simavr/sim_irq.h>
 #include <simavr/sim_time.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstring>
@@ -111,6 +112,7 @@ void Chip::was_reset(avr_t* avr) {
   if (chip.period_cycles_ > 0.0) due(static_cast<Cycle>(std::llround(chip.next_edge_)), next_edge);
   if (!chip.single_edges_.empty()) due(*chip.single_edges_.begin(), single_edge);
   due(avr->cycle + edge_cycles, end_edge);
+  if (!chip.lens_edges_.empty()) due(*chip.lens_edges_.begin(), lens_edge);
 }
 
 void Chip::raise_edge() {
@@ -146,6 +148,35 @@ void Chip::edge_at(Cycle at) {
   }
   const auto place = single_edges_.insert(at);
   if (place == single_edges_.begin()) avr_cycle_timer_register(avr_, at - now(), single_edge, this);
+}
+
+// What stands at the pin is told to the port as well: else each writing of the port's other pins would show the pin's
+// own pull-up for a moment, as an edge.
+void Chip::set_lens_pin(bool high) {
+  avr_ioport_external_t level{};
+  level.mask = 1U << 2;
+  level.value = high ? 1U << 2 : 0;
+  avr_ioctl(avr_, AVR_IOCTL_IOPORT_SET_EXTERNAL('D'), &level);
+  avr_raise_irq(avr_io_getirq(avr_, AVR_IOCTL_IOPORT_GETIRQ('D'), 2), high ? 1 : 0);
+}
+
+std::uint64_t Chip::lens_edge(avr_t* avr, std::uint64_t, void* self) {
+  Chip& chip = *static_cast<Chip*>(self);
+  chip.set_lens_pin(true);
+  avr_cycle_timer_register(avr, edge_cycles, end_lens_edge, &chip);
+  chip.lens_edges_.erase(chip.lens_edges_.begin());
+  return chip.lens_edges_.empty() ? 0 : *chip.lens_edges_.begin();
+}
+
+std::uint64_t Chip::end_lens_edge(avr_t*, std::uint64_t, void* self) {
+  static_cast<Chip*>(self)->set_lens_pin(false);
+  return 0;
+}
+
+void Chip::lens_edge_at(Cycle at) {
+  at = std::max(at, now() + 1);
+  const auto place = lens_edges_.insert(at);
+  if (place == lens_edges_.begin()) avr_cycle_timer_register(avr_, at - now(), lens_edge, this);
 }
 
 void Chip::sync_every(double cycles) {

@@ -45,6 +45,9 @@ class Chip {
   /// Sync edges every `cycles`, the first after one of these; 0: no more. Kept to fractions of a cycle.
   void sync_every(double cycles);
 
+  /// One edge of the lens drive's at D2, at that cycle, as `edge_at`.
+  void lens_edge_at(Cycle at);
+
   /// Queues bytes as they are; they go in back to back, as fast as the board's USB bridge says them (10 bits of 136
   /// cycles each).
   void send_raw(std::string_view bytes);
@@ -78,6 +81,8 @@ class Chip {
   static std::uint64_t next_edge(avr_t* avr, std::uint64_t when, void* self);
   static std::uint64_t end_edge(avr_t* avr, std::uint64_t when, void* self);
   static std::uint64_t single_edge(avr_t* avr, std::uint64_t when, void* self);
+  static std::uint64_t lens_edge(avr_t* avr, std::uint64_t when, void* self);
+  static std::uint64_t end_lens_edge(avr_t* avr, std::uint64_t when, void* self);
   static std::uint64_t next_byte(avr_t* avr, std::uint64_t when, void* self);
   static void said(avr_irq_t* irq, std::uint32_t value, void* self);
   static void trigger_changed(avr_irq_t* irq, std::uint32_t value, void* self);
@@ -90,6 +95,7 @@ class Chip {
   void mend_timing();
   void receive(std::uint8_t byte);
   void raise_edge();
+  void set_lens_pin(bool high);
   void changed(bool& high, std::vector<PinChange>& changes, std::uint32_t value);
 
   avr_t* avr_ = nullptr;
@@ -99,6 +105,7 @@ class Chip {
   double period_cycles_ = 0.0;
   double next_edge_ = 0.0;
   std::multiset<Cycle> single_edges_;
+  std::multiset<Cycle> lens_edges_;
   std::deque<char> to_chip_;
   bool byte_is_due_ = false;
   double watchdog_slowness_ = 1.0;
