@@ -159,11 +159,13 @@ Fault liars(const Consensus& found, const Points& points) {
 
 Status check_mirror(const std::optional<Consensus>& found, const ProjectorModel& known, Points points,
                     LensFreedom freedom) {
-  if (found && rms_px(*found) < mirror_px) return {};
+  if (found && found->lying.empty() && rms_px(*found) < mirror_px) return {};
   for (PickedPoint& point : points) point.pixel.x = known.width_px - point.pixel.x;
   const auto mirrored = find_consensus(known, points, freedom);
-  if (!mirrored || (found && mirror_factor * rms_px(*mirrored) >= rms_px(*found))) return {};
-  if (rms_px(*mirrored) > farthest_px(known)) return {};
+  if (!mirrored || rms_px(*mirrored) > farthest_px(known)) return {};
+  const bool fits_better = !found || mirror_factor * rms_px(*mirrored) < rms_px(*found);
+  const bool nobody_lies = mirrored->lying.empty() && found && !found->lying.empty();
+  if (!fits_better && !nobody_lies) return {};
   return Fault{"points.mirrored", "points", "they fit their mirror image: an axis points the wrong way",
                "pixels run right and down from the top left corner; the room's axes are right-handed, +Y up"};
 }
