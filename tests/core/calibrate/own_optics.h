@@ -93,10 +93,11 @@ struct Lens {
     const double wanted_y = (v - cy) / fy;
     double x = wanted_x;
     double y = wanted_y;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < 100; ++i) {
       const auto [bent_x, bent_y] = bent(x, y);
       x += wanted_x - bent_x;
       y += wanted_y - bent_y;
+      if (std::abs(wanted_x - bent_x) + std::abs(wanted_y - bent_y) < 1e-13) break;
     }
     return times(world_from_own, Vector{x, -y, -1.0});
   }
