@@ -14,7 +14,8 @@ focalstage_room(core/schedule   USES core/optics core/scene)
 focalstage_room(core/percept    USES core/retina core/schedule core/compile core/optics core/stage PRIVATE_LIBS TBB::tbb)
 focalstage_room(core/tracking   USES core/scene core/base)
 focalstage_room(core/study      USES core/base                     PRIVATE_LIBS Boost::headers)
-focalstage_room(core/calibrate  USES core/base                     PRIVATE_LIBS Eigen3::Eigen Boost::headers)
+focalstage_room(core/stripes    USES core/base                     PRIVATE_LIBS Eigen3::Eigen)
+focalstage_room(core/calibrate  USES core/optics core/stage core/scene core/base PRIVATE_LIBS opencv::calib3d opencv::core Eigen3::Eigen Boost::headers)
 focalstage_room(core/check      USES core/process core/percept core/compile core/schedule core/optics core/scene)
 
 # io: everything that becomes bytes
@@ -73,7 +74,7 @@ focalstage_room(editor/pipeline USES io/models io/project io/assets io/show core
                                      core/schedule)
 focalstage_room(editor/trials   USES editor/pipeline io/study io/protocol io/show io/project core/study)
 focalstage_room(editor/cli      USES editor/samples editor/pipeline editor/trials io/study io/models io/project io/assets io/show io/export io/plot
-                                     io/credentials io/protocol core/calibrate core/check core/reference core/compile core/percept
+                                     io/credentials io/protocol io/image core/calibrate core/check core/reference core/compile core/percept
                                      core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
 focalstage_room(editor/document USES editor/samples io/journal io/models io/project io/assets io/files core/scene)

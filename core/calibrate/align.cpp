@@ -1,13 +1,14 @@
 #include "core/calibrate/align.h"
 
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <cstdio>
 #include <utility>
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
+
+#include "core/calibrate/chance.h"
 
 namespace focalstage {
 
@@ -21,13 +22,6 @@ constexpr double equations = 3.0;      // that a pair brings
 constexpr double unknowns = 6.0;       // of a rigid transform
 
 using Points = Eigen::Matrix3Xd;
-
-// What is asked outside a distribution's domain comes back as NaN: no exception leaves this file.
-namespace bm = boost::math;
-using Policy = bm::policies::policy<
-    bm::policies::domain_error<bm::policies::ignore_error>, bm::policies::overflow_error<bm::policies::ignore_error>,
-    bm::policies::pole_error<bm::policies::ignore_error>, bm::policies::evaluation_error<bm::policies::ignore_error>>;
-using FisherF = bm::fisher_f_distribution<double, Policy>;
 
 Points points_of(const std::vector<PointPair>& pairs, glm::dvec3 PointPair::*side) {
   Points points(3, static_cast<Eigen::Index>(pairs.size()));
@@ -108,14 +102,6 @@ Status check_mirror(const Fit& all, const Points& tracker, const Points& world) 
                "see which axes tracker and world have; both are right-handed, Y up"};
 }
 
-/// How improbable it is, by chance alone, that the others agree so much better without this pair.
-double chance_of(double all_ss, double rest_ss, double rest_df) {
-  if (rest_ss <= 0.0) return 0.0;
-  const double f = std::max(all_ss - rest_ss, 0.0) / equations / (rest_ss / rest_df);
-  if (!std::isfinite(f)) return 0.0;
-  return bm::cdf(bm::complement(FisherF(equations, rest_df), f));
-}
-
 Fault pair_off(const std::vector<PointPair>& pairs, std::size_t index, double off_mm, double rest_rms_mm) {
   char text[160];
   std::snprintf(text, sizeof text, "it is %.1f mm from where the other pairs put it; those agree to %.1f mm", off_mm,
@@ -143,7 +129,8 @@ Status leave_each_out(const std::vector<PointPair>& pairs, const Fit& all, const
     alignment.residuals[i].left_out_mm = off_mm;
     square_sum += off_mm * off_mm;
     ++counted;
-    const double p = off_mm > rounding_mm ? chance_of(all.square_sum(), rest.square_sum(), rest_df) : 1.0;
+    const double p =
+        off_mm > rounding_mm ? chance_of_gain(all.square_sum(), rest.square_sum(), equations, rest_df) : 1.0;
     if (p >= least_chance) continue;
     least_chance = p;
     suspect = i;

@@ -21,6 +21,7 @@ std::span<const Command> commands() {
       Command{"adopt-rig", "set a project to what a rig measured of itself", declare_adopt_rig},
       Command{"shape", "let the lenses dwell at the slices", declare_shape},
       Command{"track-align", "say where a tracker stands, from pairs of points", declare_track_align},
+      Command{"calibrate", "measure a projector, from points or camera pictures", declare_calibrate},
       Command{"trials", "run a depth-matching study and report on it", declare_trials},
       Command{"runtime", "start the rig daemon (focalstage-runtime)", declare_runtime},
       Command{"edit", "open the window (focalstage-editor)", declare_edit},

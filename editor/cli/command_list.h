@@ -20,6 +20,7 @@ Command::Run declare_solve(CLI::App& app);
 Command::Run declare_shape(CLI::App& app);
 Command::Run declare_adopt_rig(CLI::App& app);
 Command::Run declare_track_align(CLI::App& app);
+Command::Run declare_calibrate(CLI::App& app);
 Command::Run declare_trials(CLI::App& app);
 Command::Run declare_runtime(CLI::App& app);
 Command::Run declare_edit(CLI::App& app);

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include <Eigen/Core>
+
+namespace focalstage {
+
+// The room's own: what includes this sees Eigen.
+
+/// Fills in the residuals of unknowns; false where those cannot be (a point behind what looks at it).
+using Residuals = std::function<bool(const Eigen::VectorXd& unknowns, Eigen::VectorXd& residuals)>;
+
+struct LeastSquares {
+  Eigen::VectorXd unknowns;
+  Eigen::VectorXd residuals;
+  Eigen::MatrixXd covariance;  ///< of the unknowns, for residuals of variance one
+
+  double square_sum() const { return residuals.squaredNorm(); }
+};
+
+/// The unknowns of least square sum near `first`, by Levenberg and Marquardt with central differences (K. Madsen, H. B.
+/// Nielsen, O. Tingleff, "Methods for non-linear least squares problems", 2004, algorithm 3.16). `scale`: a change of
+/// each unknown that matters alike. None where the residuals of `first` cannot be, or the unknowns are not determined.
+std::optional<LeastSquares> least_squares(const Residuals& residuals, const Eigen::VectorXd& first,
+                                          const Eigen::VectorXd& scale);
+
+}  // namespace focalstage

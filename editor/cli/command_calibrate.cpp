@@ -1,0 +1,66 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "editor/cli/calibrate_actions.h"
+#include "editor/cli/command_list.h"
+
+namespace focalstage {
+namespace {
+
+using Action = ExitStatus (*)(const CalibrateOptions&);
+
+void add_project(CLI::App& app, CalibrateOptions& options) {
+  app.add_option("PROJECT", options.project, "a NAME.focal, or the folder that holds it")->required()->type_name("");
+  app.add_option("--projector", options.projector, "which one, where the project has several")->type_name("NAME");
+}
+
+/// What every result is asked for before it becomes part of a project.
+void add_result(CLI::App& app, CalibrateOptions& options) {
+  app.add_option("-o,--output", options.output, "where to save; the project itself by default")->type_name("OUT");
+  app.add_option("--limit-px", options.limit_px, "refuse where half of the residuals are longer, or 5 % three times so")
+      ->check(CLI::PositiveNumber.name(""))
+      ->type_name("PX")
+      ->capture_default_str();
+  app.add_flag("--despite-residual", options.despite_residual, "apply it all the same");
+  app.add_option("--picture", options.picture, "draw where points are and how far off, in the projector's picture")
+      ->type_name("PNG");
+  app.add_flag("--dry-run", options.dry_run, "save nothing");
+  app.add_flag("--json", options.json, "one JSON object instead of words");
+}
+
+void declare_points(CLI::App& app, CalibrateOptions& options) {
+  app.add_option("FILE", options.input, "places in the room and the pixels that light them")
+      ->required()
+      ->type_name("POINTS.json");
+  add_project(app, options);
+  app.add_option("--solve", options.solve, "pose alone, the focal length too, or the centre too")
+      ->check(CLI::IsMember({"pose", "focal", "centre"}).name(""))
+      ->type_name("pose|focal|centre")
+      ->capture_default_str();
+  add_result(app, options);
+}
+
+void declare_verify(CLI::App& app, CalibrateOptions& options) {
+  add_project(app, options);
+  app.add_option("-o,--output", options.output, "the picture to project")->required()->type_name("PNG");
+}
+
+}  // namespace
+
+Command::Run declare_calibrate(CLI::App& app) {
+  const auto options = std::make_shared<CalibrateOptions>();
+  const auto action = std::make_shared<Action>(nullptr);
+  const auto add = [&](const char* name, const char* help, Action run) {
+    CLI::App* below = app.add_subcommand(name, help);
+    below->callback([action, run] { *action = run; });
+    return below;
+  };
+  declare_points(*add("points", "Pose, and lens if asked, from picked points.", run_calibrate_points), *options);
+  declare_verify(*add("verify", "Draw the model's edges as the projector must show them.", run_calibrate_verify),
+                 *options);
+  app.require_subcommand(1);
+  app.footer("docs/calibration.md says how points are picked and what is refused.");
+  return [options, action] { return (*action)(*options); };
+}
+
+}  // namespace focalstage
