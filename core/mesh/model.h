@@ -32,7 +32,7 @@ struct ModelPart {
   int material = -1;
 };
 
-/// Where a node stands in its parent, as translation, rotation and scale (a matrix in a file is decomposed or refused).
+/// Where a node stands in its parent, as what animations drive.
 struct NodePose {
   glm::dvec3 translation{0.0};
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
@@ -43,6 +43,7 @@ struct Node {
   std::string name;
   int parent = -1;  ///< an index smaller than the node's own, or -1
   NodePose pose;
+  std::optional<glm::dmat4> matrix;  ///< in place of the pose, where the file has one: it may shear
   std::vector<ModelPart> parts;
 };
 

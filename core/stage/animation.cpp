@@ -78,7 +78,9 @@ std::vector<glm::dmat4> model_from_nodes(const Model& model, const std::vector<N
   matrices.reserve(model.nodes.size());
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const NodePose& pose = poses[i];
-    const glm::dmat4 parent_from_node = glm::scale(Rigid{pose.translation, pose.rotation}.matrix(), pose.scale);
+    const std::optional<glm::dmat4>& matrix = model.nodes[i].matrix;
+    const glm::dmat4 parent_from_node =
+        matrix ? *matrix : glm::scale(Rigid{pose.translation, pose.rotation}.matrix(), pose.scale);
     const int parent = model.nodes[i].parent;
     matrices.push_back(parent < 0 ? parent_from_node : matrices[static_cast<std::size_t>(parent)] * parent_from_node);
   }

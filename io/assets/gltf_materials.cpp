@@ -7,11 +7,9 @@
 namespace focalstage {
 namespace {
 
-Result<Wrap> wrap_from(int code, const std::string& where) {
-  if (code == TINYGLTF_TEXTURE_WRAP_REPEAT) return Wrap::repeat;
+Wrap wrap_from(int code) {
   if (code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return Wrap::mirror;
-  if (code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clamp;
-  return invalid_asset(where, "glTF has no such wrapping");
+  return code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE ? Wrap::clamp : Wrap::repeat;
 }
 
 class MaterialReader {
@@ -33,16 +31,10 @@ class MaterialReader {
     material.name = from.name;
     material.unlit = from.extensions.contains("KHR_materials_unlit");
     const std::vector<double>& factor = from.pbrMetallicRoughness.baseColorFactor;
-    if (factor.size() != 4) return invalid_asset(where, "a base colour has four components");
-    for (const double component : factor) {
-      if (!(component >= 0.0 && component <= 1.0)) return invalid_asset(where, "a base colour is not within 0 and 1");
-    }
     material.base_color = {factor[0], factor[1], factor[2]};
-    if (from.alphaMode == "BLEND" || from.alphaMode == "MASK") {
+    if (from.alphaMode != "OPAQUE") {
       result_.findings.push_back(asset_finding(Severity::info, "asset.drawn-opaque", where,
                                                "the material lets light through; it is drawn opaque"));
-    } else if (from.alphaMode != "OPAQUE") {
-      return invalid_asset(where + "/alphaMode", "glTF has no such alpha mode");
     }
     const tinygltf::TextureInfo& texture = from.pbrMetallicRoughness.baseColorTexture;
     int uv_set = -1;
@@ -51,7 +43,7 @@ class MaterialReader {
         return unsupported_asset(where, "a texture is moved over its mesh (KHR_texture_transform)",
                                  "apply the transform to the UVs");
       }
-      Result<std::shared_ptr<const Texture>> read = read_texture(texture.index, where);
+      Result<std::shared_ptr<const Texture>> read = read_texture(texture.index);
       if (!read) return read.fault();
       material.texture = *read;
       uv_set = texture.texCoord;
@@ -61,34 +53,19 @@ class MaterialReader {
     return {};
   }
 
-  Result<std::shared_ptr<const Texture>> read_texture(int index, const std::string& user) {
+  Result<std::shared_ptr<const Texture>> read_texture(int index) {
     const tinygltf::Model& gltf = document_.gltf;
-    if (static_cast<std::size_t>(index) >= gltf.textures.size()) return invalid_asset(user, "there is no such texture");
     const tinygltf::Texture& texture = gltf.textures[static_cast<std::size_t>(index)];
-    const std::string where = document_.at("textures", static_cast<std::size_t>(index));
-    if (texture.source < 0) {
-      return unsupported_asset(where, "a texture has no plain image", "export its picture as PNG or JPEG");
-    }
-    if (static_cast<std::size_t>(texture.source) >= gltf.images.size()) {
-      return invalid_asset(where + "/source", "there is no such image");
-    }
     tinygltf::Sampler sampler;  // repeats, as glTF without one
-    if (texture.sampler >= 0) {
-      if (static_cast<std::size_t>(texture.sampler) >= gltf.samplers.size()) {
-        return invalid_asset(where + "/sampler", "there is no such sampler");
-      }
-      sampler = gltf.samplers[static_cast<std::size_t>(texture.sampler)];
-    }
-    const Result<Wrap> wrap_u = wrap_from(sampler.wrapS, where);
-    const Result<Wrap> wrap_v = wrap_from(sampler.wrapT, where);
-    if (!wrap_u) return wrap_u.fault();
-    if (!wrap_v) return wrap_v.fault();
-    std::shared_ptr<const Texture>& known = textures_[{texture.source, *wrap_u, *wrap_v}];
+    if (texture.sampler >= 0) sampler = gltf.samplers[static_cast<std::size_t>(texture.sampler)];
+    const Wrap wrap_u = wrap_from(sampler.wrapS);
+    const Wrap wrap_v = wrap_from(sampler.wrapT);
+    std::shared_ptr<const Texture>& known = textures_[{texture.source, wrap_u, wrap_v}];
     if (!known) {
       Result<Texture> decoded = decode(static_cast<std::size_t>(texture.source));
       if (!decoded) return decoded.fault();
-      decoded->wrap_u = *wrap_u;
-      decoded->wrap_v = *wrap_v;
+      decoded->wrap_u = wrap_u;
+      decoded->wrap_v = wrap_v;
       known = std::make_shared<const Texture>(*std::move(decoded));
     }
     return known;
@@ -98,12 +75,7 @@ class MaterialReader {
     const tinygltf::Image& image = document_.gltf.images[index];
     const std::string where = document_.at("images", index);
     std::span<const std::byte> bytes = std::as_bytes(std::span(image.image));
-    if (image.bufferView >= 0) {
-      if (static_cast<std::size_t>(image.bufferView) >= document_.gltf.bufferViews.size()) {
-        return invalid_asset(where + "/bufferView", "there is no such bufferView");
-      }
-      bytes = view_bytes(document_.gltf, image.bufferView);
-    }
+    if (image.bufferView >= 0) bytes = view_bytes(document_.gltf, image.bufferView);
     Result<Texture> texture = decode_image(bytes, where);
     if (!texture) return texture;
     pixels_left_ -= static_cast<std::int64_t>(texture->rgba.size() / 4);
