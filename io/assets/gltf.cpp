@@ -1,7 +1,9 @@
 #include <algorithm>
 
 #include "io/assets/gltf_animations.h"
+#include "io/assets/gltf_cameras_lights.h"
 #include "io/assets/gltf_check.h"
+#include "io/assets/gltf_deformations.h"
 #include "io/assets/gltf_materials.h"
 #include "io/assets/gltf_meshes.h"
 #include "io/assets/gltf_nodes.h"
@@ -25,13 +27,15 @@ Result<MeshFile> read_gltf(const FileToRead& file) {
   MeshFile result;
   result.vertices = meshes->vertices;
   result.triangles = meshes->triangles;
-  for (const auto& findings : {*checked, materials->findings, meshes->findings, nodes->findings}) {
+  const std::vector<Finding> more = cameras_and_lights(document, nodes->nodes, nodes->node_of_gltf);
+  for (const auto& findings : {*checked, materials->findings, meshes->findings, nodes->findings, more}) {
     result.findings.insert(result.findings.end(), findings.begin(), findings.end());
   }
   if (std::none_of(nodes->nodes.begin(), nodes->nodes.end(), [](const Node& n) { return !n.parts.empty(); })) {
     result.findings.push_back(asset_finding(Severity::warning, "asset.empty", file.path, "the scene draws nothing"));
   }
-  result.model = {std::move(materials->materials), std::move(nodes->nodes), read_gltf_animations(document, *nodes)};
+  result.model = {std::move(materials->materials), std::move(nodes->nodes), read_gltf_animations(document, *nodes),
+                  read_gltf_skins(document, nodes->node_of_gltf)};
   return result;
 }
 

@@ -10,6 +10,7 @@ using Interpolation = AnimationChannel::Interpolation;
 
 Target target_from(const std::string& path) {
   if (path == "rotation") return Target::rotation;
+  if (path == "weights") return Target::morph_weights;
   return path == "scale" ? Target::scale : Target::translation;
 }
 
@@ -24,6 +25,10 @@ AnimationChannel read_channel(const GltfDocument& document, const tinygltf::Anim
   channel.target = target_from(path);
   channel.interpolation = interpolation_from(sampler.interpolation);
   channel.times_s = read_numbers(document, sampler.input);
+  if (channel.target == Target::morph_weights) {
+    channel.morph_weights = read_numbers(document, sampler.output);
+    return channel;
+  }
   channel.values = read_vectors(document, sampler.output);
   if (channel.target == Target::rotation && channel.interpolation != Interpolation::cubic) {
     // As floats rounded it; a cubic is made unit after interpolation.

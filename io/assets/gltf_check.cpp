@@ -7,8 +7,8 @@
 namespace focalstage {
 namespace {
 
-constexpr std::array<std::string_view, 3> known_extensions{"KHR_materials_unlit", "KHR_texture_transform",
-                                                           "KHR_mesh_quantization"};
+constexpr std::array<std::string_view, 4> known_extensions{"KHR_materials_unlit", "KHR_texture_transform",
+                                                           "KHR_mesh_quantization", "KHR_lights_punctual"};
 // These change what other members mean: not even a file that only "uses" them is what it seems.
 constexpr std::array<std::string_view, 3> changing_extensions{"KHR_draco_mesh_compression", "EXT_meshopt_compression",
                                                               "EXT_mesh_gpu_instancing"};
@@ -44,16 +44,6 @@ Status check_extensions(const GltfDocument& document) {
   return {};
 }
 
-/// What moves the vertices of a mesh.
-Status check_deformations(const GltfDocument& document) {
-  for (std::size_t i = 0; i < document.gltf.meshes.size(); ++i) {
-    if (morph_targets(document.gltf.meshes[i]) == 0) continue;
-    return unsupported_asset(document.at("meshes", i), "morph targets are not read", "export without shape keys");
-  }
-  if (document.gltf.skins.empty()) return {};
-  return unsupported_asset(document.path + ": /skins", "skins are not read", "bake the animation into the nodes");
-}
-
 }  // namespace
 
 Storage storage_of(const tinygltf::Accessor& accessor) {
@@ -80,8 +70,8 @@ Result<std::vector<Finding>> check_gltf(const GltfDocument& document) {
     if (Status status = part(document); !status) return status.fault();
   }
   if (Status status = check_gltf_accessors(document, findings); !status) return status.fault();
-  for (const auto part : {check_gltf_materials, check_gltf_meshes, check_gltf_nodes, check_gltf_skins,
-                          check_gltf_animations, check_deformations}) {
+  for (const auto part : {check_gltf_materials, check_gltf_cameras_and_lights, check_gltf_meshes, check_gltf_nodes,
+                          check_gltf_skins, check_gltf_animations}) {
     if (Status status = part(document); !status) return status.fault();
   }
   return findings;

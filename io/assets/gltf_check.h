@@ -19,6 +19,7 @@ Result<std::vector<Finding>> check_gltf(const GltfDocument& document);
 Status check_gltf_views(const GltfDocument& document);
 Status check_gltf_accessors(const GltfDocument& document, std::vector<Finding>& findings);
 Status check_gltf_materials(const GltfDocument& document);
+Status check_gltf_cameras_and_lights(const GltfDocument& document);
 Status check_gltf_meshes(const GltfDocument& document);
 Status check_gltf_nodes(const GltfDocument& document);
 Status check_gltf_skins(const GltfDocument& document);

@@ -1,6 +1,7 @@
-#include <array>
+#include <cmath>
 
 #include "io/assets/gltf_check.h"
+#include "io/assets/gltf_materials.h"
 
 namespace focalstage {
 namespace {
@@ -48,6 +49,18 @@ Status check_images(const GltfDocument& document) {
   return {};
 }
 
+Status check_layout(const tinygltf::TextureInfo& texture, const std::string& where) {
+  const TextureLayout layout = texture_layout(texture);
+  const auto within = [](double value, double limit) { return std::abs(value) <= limit; };
+  constexpr double most_turn_rad = 1e4;
+  constexpr double most = 1e9;
+  if (within(layout.rotation, most_turn_rad) && within(layout.offset.x, most) && within(layout.offset.y, most) &&
+      within(layout.scale.x, most) && within(layout.scale.y, most)) {
+    return {};
+  }
+  return invalid_asset(where + "/extensions/KHR_texture_transform", "the texture is moved, turned or scaled too far");
+}
+
 Status check_material(const GltfDocument& document, std::size_t index) {
   const tinygltf::Material& material = document.gltf.materials[index];
   const std::string where = document.at("materials", index);
@@ -73,7 +86,7 @@ Status check_material(const GltfDocument& document, std::size_t index) {
     return unsupported_asset(document.at("textures", static_cast<std::size_t>(texture)), "a texture has no plain image",
                              "export its picture as PNG or JPEG");
   }
-  return {};
+  return check_layout(material.pbrMetallicRoughness.baseColorTexture, at_pbr + "/baseColorTexture");
 }
 
 }  // namespace

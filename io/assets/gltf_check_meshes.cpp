@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "io/assets/gltf_check.h"
+#include "io/assets/gltf_materials.h"
 
 namespace focalstage {
 namespace {
@@ -128,7 +129,7 @@ class MeshChecker {
     const tinygltf::Material& material = document_.gltf.materials[static_cast<std::size_t>(primitive.material)];
     const tinygltf::TextureInfo& texture = material.pbrMetallicRoughness.baseColorTexture;
     if (texture.index < 0) return {};
-    const std::string name = "TEXCOORD_" + std::to_string(texture.texCoord);
+    const std::string name = "TEXCOORD_" + std::to_string(texture_layout(texture).uv_set);
     if (primitive.attributes.contains(name)) return {};
     return invalid_asset(where_ + "/attributes", "its material's texture needs " + name);
   }

@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/assets/gltf_cameras_lights.h"
 #include "io/assets/gltf_check.h"
 
 namespace focalstage {
 namespace {
+
+constexpr std::size_t most_weights = std::size_t{1} << 20;
 
 class NodeChecker {
  public:
@@ -91,7 +94,7 @@ class NodeChecker {
     return {};
   }
 
-  Status check_content(std::size_t index) const {
+  Status check_content(std::size_t index) {
     const tinygltf::Node& node = nodes_[index];
     const std::string where = document_.at("nodes", index);
     const std::vector<tinygltf::Mesh>& meshes = document_.gltf.meshes;
@@ -101,16 +104,24 @@ class NodeChecker {
     if (node.camera >= 0 && !is_one_of(node.camera, document_.gltf.cameras.size())) {
       return invalid_asset(where + "/camera", "there is no such camera");
     }
+    const int light = light_of_node(node);
+    if (light >= 0 && !is_one_of(light, document_.gltf.lights.size())) {
+      return invalid_asset(where + "/extensions/KHR_lights_punctual/light", "there is no such light");
+    }
     const std::size_t targets = node.mesh < 0 ? 0 : morph_targets(meshes[static_cast<std::size_t>(node.mesh)]);
     if (!node.weights.empty() && node.weights.size() != targets) {
       return invalid_asset(where + "/weights", "there are not as many weights as morph targets");
     }
-    return {};
+    weights_ += targets;
+    if (weights_ <= most_weights) return {};
+    return Fault{"asset.too-large", where, "the nodes have more than 2^20 weights of morph targets together",
+                 "use fewer shape keys"};
   }
 
   const GltfDocument& document_;
   const std::vector<tinygltf::Node>& nodes_;
   std::vector<int> parent_;
+  std::size_t weights_ = 0;
 };
 
 }  // namespace

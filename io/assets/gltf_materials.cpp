@@ -1,7 +1,8 @@
 #include "io/assets/gltf_materials.h"
 
-#include <cmath>
+#include <algorithm>
 
+#include "core/mesh/circle.h"
 #include "io/image/png.h"
 
 namespace focalstage {
@@ -10,6 +11,32 @@ namespace {
 Wrap wrap_from(int code) {
   if (code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return Wrap::mirror;
   return code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE ? Wrap::clamp : Wrap::repeat;
+}
+
+/// Alpha of a picture's pixels, as codes.
+struct AlphaRange {
+  int least = 255;
+  int most = 255;
+};
+
+AlphaRange alpha_of(const Texture* texture) {
+  if (texture == nullptr) return {};
+  AlphaRange range{255, 0};
+  for (std::size_t i = 3; i < texture->rgba.size(); i += 4) {
+    range.least = std::min<int>(range.least, texture->rgba[i]);
+    range.most = std::max<int>(range.most, texture->rgba[i]);
+  }
+  return range;
+}
+
+double number_in(const tinygltf::Value& value, double otherwise) {
+  return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
+}
+
+glm::dvec2 pair_in(const tinygltf::Value& object, const std::string& name, const glm::dvec2& otherwise) {
+  const tinygltf::Value& pair = object.Get(name);
+  if (!pair.IsArray() || pair.ArrayLen() != 2) return otherwise;
+  return {number_in(pair.Get(0), otherwise.x), number_in(pair.Get(1), otherwise.y)};
 }
 
 class MaterialReader {
@@ -26,31 +53,35 @@ class MaterialReader {
  private:
   Status read_material(std::size_t index) {
     const tinygltf::Material& from = document_.gltf.materials[index];
-    const std::string where = document_.at("materials", index);
     Material material;
     material.name = from.name;
     material.unlit = from.extensions.contains("KHR_materials_unlit");
     const std::vector<double>& factor = from.pbrMetallicRoughness.baseColorFactor;
     material.base_color = {factor[0], factor[1], factor[2]};
-    if (from.alphaMode != "OPAQUE") {
-      result_.findings.push_back(asset_finding(Severity::info, "asset.drawn-opaque", where,
-                                               "the material lets light through; it is drawn opaque"));
-    }
     const tinygltf::TextureInfo& texture = from.pbrMetallicRoughness.baseColorTexture;
-    int uv_set = -1;
     if (texture.index >= 0) {
-      if (texture.extensions.contains("KHR_texture_transform")) {
-        return unsupported_asset(where, "a texture is moved over its mesh (KHR_texture_transform)",
-                                 "apply the transform to the UVs");
-      }
       Result<std::shared_ptr<const Texture>> read = read_texture(texture.index);
       if (!read) return read.fault();
       material.texture = *read;
-      uv_set = texture.texCoord;
     }
+    result_.invisible.push_back(cut_away(from, index, alpha_of(material.texture.get())));
+    result_.layouts.push_back(texture.index < 0 ? TextureLayout{} : texture_layout(texture));
     result_.materials.push_back(std::move(material));
-    result_.uv_set.push_back(uv_set);
     return {};
+  }
+
+  /// Whether its alpha is below the cutoff everywhere. What is neither that nor opaque everywhere is drawn opaque.
+  bool cut_away(const tinygltf::Material& from, std::size_t index, const AlphaRange& of_texture) {
+    if (from.alphaMode == "OPAQUE") return false;
+    const double factor = from.pbrMetallicRoughness.baseColorFactor[3];
+    const double least = factor * of_texture.least / 255.0;
+    const double most = factor * of_texture.most / 255.0;
+    const bool mask = from.alphaMode == "MASK";
+    if (mask && most < from.alphaCutoff) return true;
+    if (least >= (mask ? from.alphaCutoff : 1.0)) return false;
+    result_.findings.push_back(asset_finding(Severity::info, "asset.drawn-opaque", document_.at("materials", index),
+                                             "the material lets light through; it is drawn opaque"));
+    return false;
   }
 
   Result<std::shared_ptr<const Texture>> read_texture(int index) {
@@ -60,12 +91,14 @@ class MaterialReader {
     if (texture.sampler >= 0) sampler = gltf.samplers[static_cast<std::size_t>(texture.sampler)];
     const Wrap wrap_u = wrap_from(sampler.wrapS);
     const Wrap wrap_v = wrap_from(sampler.wrapT);
-    std::shared_ptr<const Texture>& known = textures_[{texture.source, wrap_u, wrap_v}];
+    const Magnify magnify = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST ? Magnify::nearest : Magnify::linear;
+    std::shared_ptr<const Texture>& known = textures_[{texture.source, wrap_u, wrap_v, magnify}];
     if (!known) {
       Result<Texture> decoded = decode(static_cast<std::size_t>(texture.source));
       if (!decoded) return decoded.fault();
       decoded->wrap_u = wrap_u;
       decoded->wrap_v = wrap_v;
+      decoded->magnify = magnify;
       known = std::make_shared<const Texture>(*std::move(decoded));
     }
     return known;
@@ -87,11 +120,33 @@ class MaterialReader {
 
   const GltfDocument& document_;
   GltfMaterials result_;
-  std::map<std::tuple<int, Wrap, Wrap>, std::shared_ptr<const Texture>> textures_;
+  std::map<std::tuple<int, Wrap, Wrap, Magnify>, std::shared_ptr<const Texture>> textures_;
   std::int64_t pixels_left_ = std::int64_t{1} << 27;
 };
 
 }  // namespace
+
+glm::dvec2 TextureLayout::uv_from(const glm::dvec2& gltf_uv) const {
+  const glm::dvec2 scaled = gltf_uv * scale;
+  const SinCos turn = sin_cos(rotation);
+  // V runs down: a turn that is counter-clockwise to the eye lowers it.
+  const glm::dvec2 turned{turn.cos * scaled.x + turn.sin * scaled.y, turn.cos * scaled.y - turn.sin * scaled.x};
+  const glm::dvec2 moved = turned + offset;
+  return {moved.x, 1.0 - moved.y};
+}
+
+TextureLayout texture_layout(const tinygltf::TextureInfo& texture) {
+  TextureLayout layout;
+  layout.uv_set = texture.texCoord;
+  const auto found = texture.extensions.find("KHR_texture_transform");
+  if (found == texture.extensions.end()) return layout;
+  const tinygltf::Value& transform = found->second;
+  layout.offset = pair_in(transform, "offset", layout.offset);
+  layout.scale = pair_in(transform, "scale", layout.scale);
+  layout.rotation = number_in(transform.Get("rotation"), layout.rotation);
+  if (transform.Get("texCoord").IsNumber()) layout.uv_set = transform.Get("texCoord").GetNumberAsInt();
+  return layout;
+}
 
 Result<GltfMaterials> read_gltf_materials(const GltfDocument& document) { return MaterialReader(document).read(); }
 

@@ -21,6 +21,10 @@ bool all(const Json& value, Test&& test) {
 
 bool is_index_map(const Json& value) { return value.is_object() && all(value, is_index); }
 
+bool is_numbers(const Json& value) {
+  return value.is_array() && all(value, [](const Json& n) { return n.is_number(); });
+}
+
 bool is_a(const Json& value, MemberKind kind) {
   switch (kind) {
     case MemberKind::index:
@@ -37,7 +41,9 @@ bool is_a(const Json& value, MemberKind kind) {
     case MemberKind::indices:
       return value.is_array() && all(value, is_index);
     case MemberKind::numbers:
-      return value.is_array() && all(value, [](const Json& n) { return n.is_number(); });
+      return is_numbers(value);
+    case MemberKind::pair:
+      return is_numbers(value) && value.size() == 2;
     case MemberKind::texts:
       return value.is_array() && all(value, [](const Json& t) { return t.is_string(); });
     case MemberKind::objects:

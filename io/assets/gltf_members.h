@@ -19,6 +19,7 @@ enum class MemberKind {
   object,
   indices,
   numbers,
+  pair,
   texts,
   objects,
   index_map,

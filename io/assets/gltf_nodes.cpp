@@ -99,13 +99,22 @@ class NodeReader {
                           "the matrix shears, which glTF does not allow; it is drawn as written"));
       }
     }
-    if (from.mesh >= 0 && shown_[index]) node.parts = parts_of_mesh_[static_cast<std::size_t>(from.mesh)];
+    if (from.mesh >= 0) add_mesh(from, shown_[index], node);
     parts_ += node.parts.size();
     if (parts_ > most_parts) {
       return Fault{"asset.too-large", document_.path, "the scene draws more than 65536 parts", "join its meshes"};
     }
     result_.nodes.push_back(std::move(node));
     return {};
+  }
+
+  /// What the node draws, and how it deforms that: its own weights stand for the mesh's, zeros for none.
+  void add_mesh(const tinygltf::Node& from, bool shown, Node& node) const {
+    const tinygltf::Mesh& mesh = document_.gltf.meshes[static_cast<std::size_t>(from.mesh)];
+    if (shown) node.parts = parts_of_mesh_[static_cast<std::size_t>(from.mesh)];
+    node.skin = from.skin;
+    node.morph_weights = from.weights.empty() ? mesh.weights : from.weights;
+    node.morph_weights.resize(morph_targets(mesh), 0.0);
   }
 
   const GltfDocument& document_;

@@ -91,11 +91,9 @@ void check_materials(MemberChecker& check, const Json& root) {
         const Json* texture =
             check.inner(*pbr, at_pbr, "baseColorTexture", {{"index", Kind::index, true}, {"texCoord", Kind::index}});
         if (texture == nullptr) return;
-        check.extension(*texture, at_pbr + "/baseColorTexture", "KHR_texture_transform",
-                        {{"offset", Kind::numbers},
-                         {"rotation", Kind::number},
-                         {"scale", Kind::numbers},
-                         {"texCoord", Kind::index}});
+        check.extension(
+            *texture, at_pbr + "/baseColorTexture", "KHR_texture_transform",
+            {{"offset", Kind::pair}, {"rotation", Kind::number}, {"scale", Kind::pair}, {"texCoord", Kind::index}});
       });
   check.each(root, "", "textures", {{"sampler", Kind::index}, {"source", Kind::index}, {"extensions", Kind::object}});
   check.each(root, "", "images", {{"uri", Kind::text}, {"bufferView", Kind::index}, {"mimeType", Kind::text}},
@@ -106,6 +104,37 @@ void check_materials(MemberChecker& check, const Json& root) {
              });
   check.each(root, "", "samplers",
              {{"wrapS", Kind::index}, {"wrapT", Kind::index}, {"magFilter", Kind::index}, {"minFilter", Kind::index}});
+}
+
+void check_cameras_and_lights(MemberChecker& check, const Json& root) {
+  check.each(root, "", "cameras", {{"type", Kind::text, true}, {"name", Kind::text}},
+             [&](const Json& camera, const std::string& at) {
+               check.inner(camera, at, "perspective",
+                           {{"yfov", Kind::number, true},
+                            {"znear", Kind::number, true},
+                            {"zfar", Kind::number},
+                            {"aspectRatio", Kind::number}});
+               check.inner(camera, at, "orthographic",
+                           {{"xmag", Kind::number, true},
+                            {"ymag", Kind::number, true},
+                            {"znear", Kind::number, true},
+                            {"zfar", Kind::number, true}});
+               const std::string type = camera.at("type").get<std::string>();
+               if (type != "perspective" && type != "orthographic") {
+                 check.invalid(at + "/type", "glTF has no such camera");
+               } else if (!camera.contains(type)) {
+                 check.invalid(at + "/" + type, "this member is missing");
+               }
+             });
+  const Json* lights = check.extension(root, "", "KHR_lights_punctual", {{"lights", Kind::objects, true}});
+  if (lights == nullptr) return;
+  check.each(*lights, "/extensions/KHR_lights_punctual", "lights",
+             {{"type", Kind::text, true},
+              {"name", Kind::text},
+              {"color", Kind::numbers},
+              {"intensity", Kind::number},
+              {"range", Kind::number},
+              {"spot", Kind::object}});
 }
 
 void check_channel(MemberChecker& check, const Json& channel, const std::string& at) {
@@ -137,7 +166,8 @@ Result<nlohmann::json> check_gltf_shape(std::span<const std::byte> json, const s
     Json root = Json::parse(text, text + json.size());
     if (!root.is_object()) return invalid_asset(path, "the JSON is no object");
     MemberChecker check(path);
-    for (const auto part : {check_scene, check_geometry, check_data, check_materials, check_animations}) {
+    for (const auto part :
+         {check_scene, check_geometry, check_data, check_materials, check_cameras_and_lights, check_animations}) {
       part(check, root);
     }
     if (!check.ok()) return check.status().fault();

@@ -204,7 +204,6 @@ TEST_CASE("materials: unlit, a second UV set, blending and no material") {
   const MeshFile file = must_read(read("a.glb", gltf.glb()));
   CHECK(file.model.materials[0].unlit);
   CHECK(leaf_mesh(file).uvs[0] == glm::dvec2(5, -4));
-  CHECK(has_code(file, "asset.drawn-opaque"));
   primitive_of(gltf)["attributes"].erase("TEXCOORD_1");
   CHECK(refusal(read("a.glb", gltf.glb())) == "asset.invalid");
   primitive_of(gltf).erase("material");
@@ -232,7 +231,6 @@ TEST_CASE("rotations and cubics are animated") {
 
 TEST_CASE("what is valid glTF but not read here is named") {
   const std::pair<std::string, std::string> cases[] = {
-      {R"({"skins":[{"joints":[0]}]})", "skins"},
       {R"({"extensionsUsed":["KHR_draco_mesh_compression"]})", "KHR_draco"},
       {R"({"extensionsRequired":["EXT_texture_webp"]})", "EXT_texture_webp"},
       {R"({"asset":{"version":"1.0"}})", "glTF 2.0"},
@@ -246,9 +244,6 @@ TEST_CASE("what is valid glTF but not read here is named") {
     REQUIRE(refusal(file) == "asset.unsupported");
     CHECK(file.fault().message.find(word) != std::string::npos);
   }
-  Gltf morphing = square_gltf();
-  primitive_of(morphing)["targets"] = {{{"POSITION", 0}}};
-  CHECK(refusal(read("a.glb", morphing.glb())) == "asset.unsupported");
   Gltf pointing = square_gltf();
   pointing.json["animations"][0]["channels"][0]["target"] = {{"path", "pointer"}};
   CHECK(refusal(read("a.glb", pointing.glb())) == "asset.unsupported");
@@ -256,10 +251,6 @@ TEST_CASE("what is valid glTF but not read here is named") {
   CHECK(refusal(read("a.glb", pointing.glb())) == "asset.unsupported");
   pointing.json["animations"][0]["channels"][0]["target"] = {{"node", 0}, {"path", "weights"}};
   CHECK(refusal(read("a.glb", pointing.glb())) == "asset.invalid");  // there is nothing that they weigh
-  Gltf moved = square_gltf();
-  moved.json["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"] =
-      Json::object();
-  CHECK(refusal(read("a.glb", moved.glb())) == "asset.unsupported");
 }
 
 TEST_CASE("every reference, count, offset and type is checked before it is used") {
