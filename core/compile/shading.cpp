@@ -38,8 +38,9 @@ Shader::Shader(const Drawable& drawable, const std::vector<Light>& lights, const
   world_normal_from_mesh_ = glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
   const bool has_uv = !drawable.mesh->uvs.empty();
   needs_uv_ = has_uv && finish.kind != Finish::Kind::flat;
+  has_colors_ = finish.vertex_colors && !drawable.mesh->colors.empty();
   lit_ = finish.lit;
-  uniform_ = !lit_ && !needs_uv_;
+  uniform_ = !lit_ && !needs_uv_ && !has_colors_;
   if (uniform_) uniform_color_ = base(glm::dvec2(0.0));
 }
 
@@ -97,12 +98,13 @@ glm::dvec3 Shader::color(const ViewTriangle& triangle, double look_x, double loo
                      triangle.edge(2, look_x, look_y)};
   weights *= 1.0 / (weights.x + weights.y + weights.z);
   const Mesh& mesh = *drawable_->mesh;
+  const glm::uvec3& t = mesh.triangles[triangle.triangle];
   glm::dvec2 uv(0.0);
   if (needs_uv_) {
-    const glm::uvec3& t = mesh.triangles[triangle.triangle];
     uv = mesh.uvs[t.x] * weights.x + mesh.uvs[t.y] * weights.y + mesh.uvs[t.z] * weights.z;
   }
-  const glm::dvec3 own = base(uv);
+  glm::dvec3 own = base(uv);
+  if (has_colors_) own *= mesh.colors[t.x] * weights.x + mesh.colors[t.y] * weights.y + mesh.colors[t.z] * weights.z;
   if (!lit_) return own;
   const glm::dvec3 look_world = world_from_eye_.direction({look_x, look_y, -1.0});
   return own * light(triangle, weights, look_world, 1.0 / triangle.inverse_depth(look_x, look_y));

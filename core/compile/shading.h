@@ -38,12 +38,14 @@ class Shader {
   Rigid world_from_eye_;
   glm::dmat3 world_normal_from_mesh_;
   bool needs_uv_ = false;
+  bool has_colors_ = false;
   bool lit_ = false;
   bool uniform_ = false;
   glm::dvec3 uniform_color_{0.0};
 };
 
-/// A texture at `uv` in linear light: bilinear between texel centres, v = 0 at the bottom row.
+/// A texture at `uv` in linear light: bilinear between texel centres or the texel it falls in, as the texture says;
+/// v = 0 at the bottom row.
 glm::dvec3 sample_texture(const Texture& texture, const glm::dvec2& uv);
 
 }  // namespace focalstage

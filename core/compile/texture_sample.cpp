@@ -38,11 +38,16 @@ glm::dvec3 texel(const Texture& texture, int column, int row) {
 }  // namespace
 
 glm::dvec3 sample_texture(const Texture& texture, const glm::dvec2& uv) {
-  const double x = uv.x * texture.width_px - 0.5;
-  const double y = (1.0 - uv.y) * texture.height_px - 0.5;  // rows are stored from the top
+  const double half = texture.magnify == Magnify::linear ? 0.5 : 0.0;
+  const double x = uv.x * texture.width_px - half;
+  const double y = (1.0 - uv.y) * texture.height_px - half;  // rows are stored from the top
   if (!std::isfinite(x) || !std::isfinite(y) || std::abs(x) > 1e15 || std::abs(y) > 1e15) return glm::dvec3(0.0);
   const auto left = static_cast<long long>(std::floor(x));
   const auto top = static_cast<long long>(std::floor(y));
+  if (texture.magnify == Magnify::nearest) {
+    return texel(texture, wrapped(left, texture.width_px, texture.wrap_u),
+                 wrapped(top, texture.height_px, texture.wrap_v));
+  }
   const double right_share = x - static_cast<double>(left);
   const double lower_share = y - static_cast<double>(top);
   const int c0 = wrapped(left, texture.width_px, texture.wrap_u);

@@ -84,6 +84,7 @@ Status check_mesh(const Mesh& mesh) {
   const std::size_t count = mesh.positions_m.size();
   if (!mesh.normals.empty() && mesh.normals.size() != count) return invalid("not one normal per vertex");
   if (!mesh.uvs.empty() && mesh.uvs.size() != count) return invalid("not one texture coordinate per vertex");
+  if (!mesh.colors.empty() && mesh.colors.size() != count) return invalid("not one colour per vertex");
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const glm::uvec3& t = mesh.triangles[i];
     if (std::max({t.x, t.y, t.z}) >= count) {
@@ -93,6 +94,7 @@ Status check_mesh(const Mesh& mesh) {
   }
   for (std::size_t i = 0; i < count; ++i) {
     const bool good = finite(mesh.positions_m[i]) && (mesh.normals.empty() || finite(mesh.normals[i])) &&
+                      (mesh.colors.empty() || finite(mesh.colors[i])) &&
                       (mesh.uvs.empty() || (std::isfinite(mesh.uvs[i].x) && std::isfinite(mesh.uvs[i].y)));
     if (!good) return invalid("vertex " + std::to_string(i) + " is not finite");
   }

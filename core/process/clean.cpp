@@ -69,11 +69,12 @@ void move_together(Mesh& mesh, double tolerance_m) {
 }
 
 /// What a vertex carries, to be compared.
-std::array<double, 8> carried(const Mesh& mesh, std::size_t vertex) {
-  std::array<double, 8> all{};
+std::array<double, 11> carried(const Mesh& mesh, std::size_t vertex) {
+  std::array<double, 11> all{};
   for (int k = 0; k < 3; ++k) {
     all[static_cast<std::size_t>(k)] = mesh.positions_m[vertex][k] + 0.0;  // -0 is 0
     if (!mesh.normals.empty()) all[static_cast<std::size_t>(3 + k)] = mesh.normals[vertex][k] + 0.0;
+    if (!mesh.colors.empty()) all[static_cast<std::size_t>(8 + k)] = mesh.colors[vertex][k] + 0.0;
     if (k < 2 && !mesh.uvs.empty()) all[static_cast<std::size_t>(6 + k)] = mesh.uvs[vertex][k] + 0.0;
   }
   return all;
@@ -84,7 +85,7 @@ std::array<double, 8> carried(const Mesh& mesh, std::size_t vertex) {
 Mesh welded(const Mesh& mesh, double tolerance_m) {
   Mesh moved = mesh;
   if (tolerance_m > 0.0) move_together(moved, tolerance_m);
-  std::map<std::array<double, 8>, std::uint32_t> first_with;
+  std::map<std::array<double, 11>, std::uint32_t> first_with;
   std::vector<std::uint32_t> vertices;
   std::vector<std::uint32_t> new_place;
   for (std::uint32_t i = 0; i < moved.positions_m.size(); ++i) {

@@ -7,7 +7,7 @@
 namespace focalstage {
 
 /// Vertices nearer to each other than `tolerance_m` move to the first of them, and become one where they carry the same
-/// normal and texture coordinates. Triangles with two corners in one place go.
+/// normal, texture coordinates and colour. Triangles with two corners in one place go.
 Mesh welded(const Mesh& mesh, double tolerance_m);
 
 /// Triangles without area, and all but the first of those with the same three places for corners, go; so do vertices

@@ -19,8 +19,8 @@ Mesh decimated(const Mesh& mesh, std::optional<std::size_t> triangles, std::opti
 /// `feature_deg` or more.
 Mesh smoothed(const Mesh& mesh, int rounds, double feature_deg);
 
-/// Each round makes four triangles of one (Loop, 1987) or three (sqrt 3: Kobbelt, 2000); texture coordinates go through
-/// the same weights. "process.too-large" beyond `most_processed_triangles`.
+/// Each round makes four triangles of one (Loop, 1987) or three (sqrt 3: Kobbelt, 2000); texture coordinates and
+/// colours go through the same weights. "process.too-large" beyond `most_processed_triangles`.
 Result<Mesh> subdivided(const Mesh& mesh, Subdivision scheme, int rounds);
 
 inline constexpr std::size_t most_processed_triangles = std::size_t{1} << 24;

@@ -22,16 +22,16 @@ void subdivide(HalfEdgeMesh& half_edges, Subdivision scheme, int rounds) {
   }
 }
 
-/// Texture coordinates through the weights of the positions: the same half-edges, standing where the texture says.
-std::vector<glm::dvec2> subdivided_uvs(const Mesh& mesh, HalfEdges made, Subdivision scheme, int rounds) {
+/// What vertices carry, through the weights of the positions: the same half-edges, standing where `carried` says.
+template <class Carried>
+std::vector<glm::dvec3> subdivided_values(HalfEdges made, const Carried& carried, Subdivision scheme, int rounds) {
   for (const auto vertex : made.mesh.vertices()) {
-    const glm::dvec2& uv = mesh.uvs[made.source[static_cast<std::size_t>(vertex.idx())]];
-    made.mesh.set_point(vertex, {uv.x, uv.y, 0.0});
+    made.mesh.set_point(vertex, vec_of(carried(made.source[static_cast<std::size_t>(vertex.idx())])));
   }
   subdivide(made.mesh, scheme, rounds);
-  std::vector<glm::dvec2> uvs;
-  for (const auto vertex : made.mesh.vertices()) uvs.emplace_back(vec_of(made.mesh.point(vertex)));
-  return uvs;
+  std::vector<glm::dvec3> values;
+  for (const auto vertex : made.mesh.vertices()) values.push_back(vec_of(made.mesh.point(vertex)));
+  return values;
 }
 
 }  // namespace
@@ -47,11 +47,18 @@ Result<Mesh> subdivided(const Mesh& mesh, Subdivision scheme, int rounds) {
                      std::to_string(most_processed_triangles),
                  "use fewer rounds, or decimate before"};
   }
-  HalfEdges made = half_edges_of(mesh);
-  HalfEdges for_uvs = made;
-  subdivide(made.mesh, scheme, rounds);
-  Mesh fine = mesh_from(made.mesh);
-  if (!mesh.uvs.empty()) fine.uvs = subdivided_uvs(mesh, std::move(for_uvs), scheme, rounds);
+  const HalfEdges coarse = half_edges_of(mesh);
+  HalfEdgeMesh half_edges = coarse.mesh;
+  subdivide(half_edges, scheme, rounds);
+  Mesh fine = mesh_from(half_edges);
+  if (!mesh.uvs.empty()) {
+    const auto uv = [&](std::uint32_t vertex) { return glm::dvec3(mesh.uvs[vertex], 0.0); };
+    for (const glm::dvec3& value : subdivided_values(coarse, uv, scheme, rounds)) fine.uvs.emplace_back(value);
+  }
+  if (!mesh.colors.empty()) {
+    fine.colors = subdivided_values(
+        coarse, [&](std::uint32_t vertex) { return mesh.colors[vertex]; }, scheme, rounds);
+  }
   return mesh.normals.empty() ? fine : with_normals(fine);
 }
 

@@ -18,6 +18,7 @@ Mesh mesh_of_vertices(const Mesh& mesh, std::span<const std::uint32_t> vertices,
     picked.positions_m.push_back(mesh.positions_m[vertex]);
     if (!mesh.normals.empty()) picked.normals.push_back(mesh.normals[vertex]);
     if (!mesh.uvs.empty()) picked.uvs.push_back(mesh.uvs[vertex]);
+    if (!mesh.colors.empty()) picked.colors.push_back(mesh.colors[vertex]);
   }
   return picked;
 }

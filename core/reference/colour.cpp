@@ -79,6 +79,10 @@ glm::dvec3 normal_at(const Drawable& drawable, const glm::uvec3& corner, const g
 
 glm::dvec3 texture_colour(const Texture& texture, const glm::dvec2& uv) {
   if (texture.width_px < 1 || texture.height_px < 1) return glm::dvec3(1.0);
+  if (texture.magnify == Magnify::nearest) {
+    return texel(texture, static_cast<std::int64_t>(std::floor(uv.x * texture.width_px)),
+                 static_cast<std::int64_t>(std::floor((1.0 - uv.y) * texture.height_px)));
+  }
   const double x = uv.x * texture.width_px - 0.5;
   const double y = (1.0 - uv.y) * texture.height_px - 0.5;
   const double left = std::floor(x);
@@ -99,7 +103,8 @@ glm::dvec3 colour_at(const Drawable& drawable, std::size_t triangle, const glm::
   const Mesh& mesh = *drawable.mesh;
   const glm::uvec3& corner = mesh.triangles[triangle];
   const glm::dvec2 uv = mesh.uvs.empty() ? glm::dvec2(0.0) : blend(mesh.uvs, corner, shares);
-  const glm::dvec3 own = own_colour(drawable.finish, uv);
+  glm::dvec3 own = own_colour(drawable.finish, uv);
+  if (drawable.finish.vertex_colors && !mesh.colors.empty()) own *= blend(mesh.colors, corner, shares);
   if (!drawable.finish.lit) return own;
 
   const glm::dvec3 point_m(drawable.world_from_mesh * glm::dvec4(blend(mesh.positions_m, corner, shares), 1.0));

@@ -11,8 +11,8 @@
 
 namespace focalstage {
 
-/// Linear colour of `texture` at `uv`, bilinear between texel centres in linear light; v = 0 is the bottom of the
-/// picture.
+/// Linear colour of `texture` at `uv`, bilinear between texel centres in linear light or the texel's own; v = 0 is the
+/// bottom of the picture.
 glm::dvec3 texture_colour(const Texture& texture, const glm::dvec2& uv);
 
 /// Linear colour of a drawable's face at the point that its corners share by `shares`, seen from `viewer_m` (world).

@@ -13,6 +13,9 @@ namespace focalstage {
 /// and after its last key a channel holds.
 std::vector<NodePose> poses_at(const Model& model, double time_s);
 
+/// The weights of every node's morph targets at `time_s`, by the same rules.
+std::vector<std::vector<double>> morph_weights_at(const Model& model, double time_s);
+
 /// Each node's matrix in the model's space.
 std::vector<glm::dmat4> model_from_nodes(const Model& model, const std::vector<NodePose>& poses);
 

@@ -6,6 +6,7 @@ namespace {
 Finish finish_from(const Material* material, bool has_lights) {
   Finish finish;
   finish.lit = has_lights;
+  finish.vertex_colors = true;
   if (material == nullptr) return finish;
   finish.a = material->base_color;
   finish.texture = material->texture;

@@ -1,11 +1,13 @@
 #include "core/stage/stage.h"
 
+#include <optional>
 #include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/process/process.h"
 #include "core/stage/animation.h"
+#include "core/stage/deformed_meshes.h"
 #include "core/stage/finish.h"
 #include "core/stage/interpolate.h"
 #include "core/stage/primitive_cache.h"
@@ -23,8 +25,11 @@ struct Setting {
 /// The look of a thing's parts; without one (a surface) every part is plain.
 using Look = const Appearance*;
 
-Finish finish_for(Look look, const Material* material, const Setting& setting) {
-  return look == nullptr ? Finish{} : finish_of(*look, material, setting.has_lights);
+Finish finish_for(Look look, const Material* material, const Mesh& mesh, const Setting& setting) {
+  if (look == nullptr) return {};
+  Finish finish = finish_of(*look, material, setting.has_lights);
+  finish.vertex_colors = finish.vertex_colors && !mesh.colors.empty();
+  return finish;
 }
 
 /// What the source's steps make of a mesh of it.
@@ -36,18 +41,57 @@ Result<std::shared_ptr<const Mesh>> finished(const MeshSource& source, const std
   return fault;
 }
 
+/// The nodes of a model at one moment; what moves vertices is looked up where there is some.
+class StoodModel {
+ public:
+  StoodModel(const Model& model, double time_s)
+      : model_(model), time_s_(time_s), model_from_node_(model_from_nodes(model, poses_at(model, time_s))) {}
+
+  /// A part's mesh and where it stands.
+  Drawable place(std::size_t node, const ModelPart& part) {
+    if (!part.deformation) return {part.mesh, model_from_node_[node], {}};
+    if (!weights_) weights_ = morph_weights_at(model_, time_s_);
+    const int skin = model_.nodes[node].skin;
+    const bool carried = skin >= 0 && !part.deformation->first_share.empty();
+    Deformed state{(*weights_)[node], carried ? mesh_from_joints(skin) : std::vector<glm::dmat4>()};
+    return {deformed_mesh(part, std::move(state)), carried ? glm::dmat4(1.0) : model_from_node_[node], {}};
+  }
+
+ private:
+  std::vector<glm::dmat4> mesh_from_joints(int index) const {
+    const Skin& skin = model_.skins[static_cast<std::size_t>(index)];
+    std::vector<glm::dmat4> matrices;
+    for (std::size_t i = 0; i < skin.joints.size(); ++i) {
+      matrices.push_back(model_from_node_[static_cast<std::size_t>(skin.joints[i])] * skin.joint_from_mesh[i]);
+    }
+    return matrices;
+  }
+
+  const Model& model_;
+  double time_s_;
+  std::vector<glm::dmat4> model_from_node_;
+  std::optional<std::vector<std::vector<double>>> weights_;
+};
+
 Result<std::vector<Drawable>> model_drawables(const Model& model, const MeshSource& source,
                                               const glm::dmat4& world_from_thing, Look look, const Setting& setting) {
-  const std::vector<glm::dmat4> thing_from_node = model_from_nodes(model, poses_at(model, setting.time_s));
+  StoodModel stood(model, setting.time_s);
   std::vector<Drawable> drawables;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     for (const ModelPart& part : model.nodes[i].parts) {
       const Material* material =
           part.material < 0 ? nullptr : &model.materials[static_cast<std::size_t>(part.material)];
-      Result<std::shared_ptr<const Mesh>> mesh = finished(source, part.mesh);
+      if (part.deformation && !source.process.empty()) {
+        return Fault{"process.deforming", "/process/0",
+                     "its vertices move, and steps are for a mesh that keeps its shape",
+                     "remove the steps, or process the file where it was made"};
+      }
+      Drawable& drawable = drawables.emplace_back(stood.place(i, part));
+      Result<std::shared_ptr<const Mesh>> mesh = finished(source, drawable.mesh);
       if (!mesh) return mesh.fault();
-      drawables.push_back(
-          {*std::move(mesh), world_from_thing * thing_from_node[i], finish_for(look, material, setting)});
+      drawable.mesh = *std::move(mesh);
+      drawable.world_from_mesh = world_from_thing * drawable.world_from_mesh;
+      drawable.finish = finish_for(look, material, *drawable.mesh, setting);
     }
   }
   return drawables;
@@ -71,7 +115,7 @@ Result<std::vector<Drawable>> drawables_of(const MeshSource& source, const glm::
   }
   mesh = finished(source, *mesh);
   if (!mesh) return mesh.fault();
-  return std::vector<Drawable>{{*mesh, world_from_thing, finish_for(look, nullptr, setting)}};
+  return std::vector<Drawable>{{*mesh, world_from_thing, finish_for(look, nullptr, **mesh, setting)}};
 }
 
 /// A surface or an object, but for what only one of them has.

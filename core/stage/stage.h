@@ -25,6 +25,7 @@ struct Finish {
   glm::ivec2 squares{1, 1};                ///< checker: over the unit square of UV
   std::shared_ptr<const Texture> texture;  ///< textured
   bool lit = false;                        ///< whether the stage's lights act on it
+  bool vertex_colors = false;              ///< whether the mesh's colours multiply it
 
   bool operator==(const Finish&) const = default;
 };

@@ -9,6 +9,6 @@
 namespace focalstage {
 
 /// A glTF's animations of translation, rotation and scale, on the nodes in our order.
-Result<std::vector<Animation>> read_gltf_animations(const GltfDocument& document, const GltfNodes& nodes);
+std::vector<Animation> read_gltf_animations(const GltfDocument& document, const GltfNodes& nodes);
 
 }  // namespace focalstage

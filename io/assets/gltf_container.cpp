@@ -36,7 +36,7 @@ Result<GltfText> found_text(std::span<const std::byte> bytes, const std::string&
   constexpr std::uint32_t json_chunk = 0x4E4F534A;
   constexpr std::uint32_t binary_chunk = 0x004E4942;
   const auto word = [&](std::size_t at) { return number_at<std::uint32_t>(bytes.data() + at); };
-  if (bytes.size() < 4 || word(0) != magic) return GltfText{bytes, false};
+  if (bytes.size() < 4 || word(0) != magic) return GltfText{bytes, {}};
   if (bytes.size() < 20) return invalid_asset(path, "the GLB ends within its header");
   if (word(4) != 2) return unsupported_asset(path, "this GLB is not of version 2", "export it as glTF 2.0");
   if (word(8) != bytes.size()) return invalid_asset(path + ": byte 8", "the GLB gives another length than it has");
@@ -44,6 +44,7 @@ Result<GltfText> found_text(std::span<const std::byte> bytes, const std::string&
   if (word(16) != json_chunk || json_bytes > bytes.size() - 20) {
     return invalid_asset(path + ": byte 12", "the GLB's first chunk is no JSON or longer than the file");
   }
+  GltfText text{bytes.subspan(20, json_bytes), {}};
   for (std::uint64_t at = 20 + json_bytes, number = 1; at < bytes.size(); ++number) {
     if (at % 4 != 0 || bytes.size() - at < 8 || word(at) > bytes.size() - at - 8) {
       return invalid_asset(path + ": byte " + std::to_string(at), "a chunk of the GLB is longer than the file");
@@ -51,9 +52,10 @@ Result<GltfText> found_text(std::span<const std::byte> bytes, const std::string&
     if (number == 1 && word(at + 4) != binary_chunk) {
       return invalid_asset(path + ": byte " + std::to_string(at), "the GLB's second chunk is not binary");
     }
+    if (number == 1) text.binary = bytes.subspan(at + 8, word(at));
     at += 8 + std::uint64_t{word(at)};
   }
-  return GltfText{bytes.subspan(20, json_bytes), true};
+  return text;
 }
 
 }  // namespace

@@ -1,17 +1,42 @@
 #include "io/assets/gltf_materials.h"
 
-#include <cmath>
+#include <algorithm>
 
+#include "core/mesh/circle.h"
 #include "io/image/png.h"
 
 namespace focalstage {
 namespace {
 
-Result<Wrap> wrap_from(int code, const std::string& where) {
-  if (code == TINYGLTF_TEXTURE_WRAP_REPEAT) return Wrap::repeat;
+Wrap wrap_from(int code) {
   if (code == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return Wrap::mirror;
-  if (code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return Wrap::clamp;
-  return invalid_asset(where, "glTF has no such wrapping");
+  return code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE ? Wrap::clamp : Wrap::repeat;
+}
+
+/// Alpha of a picture's pixels, as codes.
+struct AlphaRange {
+  int least = 255;
+  int most = 255;
+};
+
+AlphaRange alpha_of(const Texture* texture) {
+  if (texture == nullptr) return {};
+  AlphaRange range{255, 0};
+  for (std::size_t i = 3; i < texture->rgba.size(); i += 4) {
+    range.least = std::min<int>(range.least, texture->rgba[i]);
+    range.most = std::max<int>(range.most, texture->rgba[i]);
+  }
+  return range;
+}
+
+double number_in(const tinygltf::Value& value, double otherwise) {
+  return value.IsNumber() ? value.GetNumberAsDouble() : otherwise;
+}
+
+glm::dvec2 pair_in(const tinygltf::Value& object, const std::string& name, const glm::dvec2& otherwise) {
+  const tinygltf::Value& pair = object.Get(name);
+  if (!pair.IsArray() || pair.ArrayLen() != 2) return otherwise;
+  return {number_in(pair.Get(0), otherwise.x), number_in(pair.Get(1), otherwise.y)};
 }
 
 class MaterialReader {
@@ -28,67 +53,52 @@ class MaterialReader {
  private:
   Status read_material(std::size_t index) {
     const tinygltf::Material& from = document_.gltf.materials[index];
-    const std::string where = document_.at("materials", index);
     Material material;
     material.name = from.name;
     material.unlit = from.extensions.contains("KHR_materials_unlit");
     const std::vector<double>& factor = from.pbrMetallicRoughness.baseColorFactor;
-    if (factor.size() != 4) return invalid_asset(where, "a base colour has four components");
-    for (const double component : factor) {
-      if (!(component >= 0.0 && component <= 1.0)) return invalid_asset(where, "a base colour is not within 0 and 1");
-    }
     material.base_color = {factor[0], factor[1], factor[2]};
-    if (from.alphaMode == "BLEND" || from.alphaMode == "MASK") {
-      result_.findings.push_back(asset_finding(Severity::info, "asset.drawn-opaque", where,
-                                               "the material lets light through; it is drawn opaque"));
-    } else if (from.alphaMode != "OPAQUE") {
-      return invalid_asset(where + "/alphaMode", "glTF has no such alpha mode");
-    }
     const tinygltf::TextureInfo& texture = from.pbrMetallicRoughness.baseColorTexture;
-    int uv_set = -1;
     if (texture.index >= 0) {
-      if (texture.extensions.contains("KHR_texture_transform")) {
-        return unsupported_asset(where, "a texture is moved over its mesh (KHR_texture_transform)",
-                                 "apply the transform to the UVs");
-      }
-      Result<std::shared_ptr<const Texture>> read = read_texture(texture.index, where);
+      Result<std::shared_ptr<const Texture>> read = read_texture(texture.index);
       if (!read) return read.fault();
       material.texture = *read;
-      uv_set = texture.texCoord;
     }
+    result_.invisible.push_back(cut_away(from, index, alpha_of(material.texture.get())));
+    result_.layouts.push_back(texture.index < 0 ? TextureLayout{} : texture_layout(texture));
     result_.materials.push_back(std::move(material));
-    result_.uv_set.push_back(uv_set);
     return {};
   }
 
-  Result<std::shared_ptr<const Texture>> read_texture(int index, const std::string& user) {
+  /// Whether its alpha is below the cutoff everywhere. What is neither that nor opaque everywhere is drawn opaque.
+  bool cut_away(const tinygltf::Material& from, std::size_t index, const AlphaRange& of_texture) {
+    if (from.alphaMode == "OPAQUE") return false;
+    const double factor = from.pbrMetallicRoughness.baseColorFactor[3];
+    const double least = factor * of_texture.least / 255.0;
+    const double most = factor * of_texture.most / 255.0;
+    const bool mask = from.alphaMode == "MASK";
+    if (mask && most < from.alphaCutoff) return true;
+    if (least >= (mask ? from.alphaCutoff : 1.0)) return false;
+    result_.findings.push_back(asset_finding(Severity::info, "asset.drawn-opaque", document_.at("materials", index),
+                                             "the material lets light through; it is drawn opaque"));
+    return false;
+  }
+
+  Result<std::shared_ptr<const Texture>> read_texture(int index) {
     const tinygltf::Model& gltf = document_.gltf;
-    if (static_cast<std::size_t>(index) >= gltf.textures.size()) return invalid_asset(user, "there is no such texture");
     const tinygltf::Texture& texture = gltf.textures[static_cast<std::size_t>(index)];
-    const std::string where = document_.at("textures", static_cast<std::size_t>(index));
-    if (texture.source < 0) {
-      return unsupported_asset(where, "a texture has no plain image", "export its picture as PNG or JPEG");
-    }
-    if (static_cast<std::size_t>(texture.source) >= gltf.images.size()) {
-      return invalid_asset(where + "/source", "there is no such image");
-    }
     tinygltf::Sampler sampler;  // repeats, as glTF without one
-    if (texture.sampler >= 0) {
-      if (static_cast<std::size_t>(texture.sampler) >= gltf.samplers.size()) {
-        return invalid_asset(where + "/sampler", "there is no such sampler");
-      }
-      sampler = gltf.samplers[static_cast<std::size_t>(texture.sampler)];
-    }
-    const Result<Wrap> wrap_u = wrap_from(sampler.wrapS, where);
-    const Result<Wrap> wrap_v = wrap_from(sampler.wrapT, where);
-    if (!wrap_u) return wrap_u.fault();
-    if (!wrap_v) return wrap_v.fault();
-    std::shared_ptr<const Texture>& known = textures_[{texture.source, *wrap_u, *wrap_v}];
+    if (texture.sampler >= 0) sampler = gltf.samplers[static_cast<std::size_t>(texture.sampler)];
+    const Wrap wrap_u = wrap_from(sampler.wrapS);
+    const Wrap wrap_v = wrap_from(sampler.wrapT);
+    const Magnify magnify = sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST ? Magnify::nearest : Magnify::linear;
+    std::shared_ptr<const Texture>& known = textures_[{texture.source, wrap_u, wrap_v, magnify}];
     if (!known) {
       Result<Texture> decoded = decode(static_cast<std::size_t>(texture.source));
       if (!decoded) return decoded.fault();
-      decoded->wrap_u = *wrap_u;
-      decoded->wrap_v = *wrap_v;
+      decoded->wrap_u = wrap_u;
+      decoded->wrap_v = wrap_v;
+      decoded->magnify = magnify;
       known = std::make_shared<const Texture>(*std::move(decoded));
     }
     return known;
@@ -98,12 +108,7 @@ class MaterialReader {
     const tinygltf::Image& image = document_.gltf.images[index];
     const std::string where = document_.at("images", index);
     std::span<const std::byte> bytes = std::as_bytes(std::span(image.image));
-    if (image.bufferView >= 0) {
-      if (static_cast<std::size_t>(image.bufferView) >= document_.gltf.bufferViews.size()) {
-        return invalid_asset(where + "/bufferView", "there is no such bufferView");
-      }
-      bytes = view_bytes(document_.gltf, image.bufferView);
-    }
+    if (image.bufferView >= 0) bytes = view_bytes(document_.gltf, image.bufferView);
     Result<Texture> texture = decode_image(bytes, where);
     if (!texture) return texture;
     pixels_left_ -= static_cast<std::int64_t>(texture->rgba.size() / 4);
@@ -115,11 +120,33 @@ class MaterialReader {
 
   const GltfDocument& document_;
   GltfMaterials result_;
-  std::map<std::tuple<int, Wrap, Wrap>, std::shared_ptr<const Texture>> textures_;
+  std::map<std::tuple<int, Wrap, Wrap, Magnify>, std::shared_ptr<const Texture>> textures_;
   std::int64_t pixels_left_ = std::int64_t{1} << 27;
 };
 
 }  // namespace
+
+glm::dvec2 TextureLayout::uv_from(const glm::dvec2& gltf_uv) const {
+  const glm::dvec2 scaled = gltf_uv * scale;
+  const SinCos turn = sin_cos(rotation);
+  // V runs down: a turn that is counter-clockwise to the eye lowers it.
+  const glm::dvec2 turned{turn.cos * scaled.x + turn.sin * scaled.y, turn.cos * scaled.y - turn.sin * scaled.x};
+  const glm::dvec2 moved = turned + offset;
+  return {moved.x, 1.0 - moved.y};
+}
+
+TextureLayout texture_layout(const tinygltf::TextureInfo& texture) {
+  TextureLayout layout;
+  layout.uv_set = texture.texCoord;
+  const auto found = texture.extensions.find("KHR_texture_transform");
+  if (found == texture.extensions.end()) return layout;
+  const tinygltf::Value& transform = found->second;
+  layout.offset = pair_in(transform, "offset", layout.offset);
+  layout.scale = pair_in(transform, "scale", layout.scale);
+  layout.rotation = number_in(transform.Get("rotation"), layout.rotation);
+  if (transform.Get("texCoord").IsNumber()) layout.uv_set = transform.Get("texCoord").GetNumberAsInt();
+  return layout;
+}
 
 Result<GltfMaterials> read_gltf_materials(const GltfDocument& document) { return MaterialReader(document).read(); }
 

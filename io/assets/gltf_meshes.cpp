@@ -1,7 +1,13 @@
 #include "io/assets/gltf_meshes.h"
 
+#include <algorithm>
+#include <array>
 #include <map>
-#include <tuple>
+#include <numeric>
+
+#include <glm/common.hpp>
+
+#include "io/assets/gltf_deformations.h"
 
 namespace focalstage {
 namespace {
@@ -13,6 +19,8 @@ struct Sources {
   int position = -1;
   int normal = -1;
   int uv = -1;
+  int color = -1;
+  std::array<double, 5> uv_transform{};  ///< KHR_texture_transform's, which moves the UVs themselves
 
   auto operator<=>(const Sources&) const = default;
 };
@@ -40,133 +48,88 @@ std::vector<glm::uvec3> triangles_from(const std::vector<std::uint32_t>& corners
 class MeshReader {
  public:
   MeshReader(const GltfDocument& document, const GltfMaterials& materials)
-      : document_(document), materials_(materials) {}
+      : document_(document), materials_(materials), deformations_(document) {}
 
   Result<GltfMeshes> read() {
     for (std::size_t i = 0; i < document_.gltf.meshes.size(); ++i) {
       const tinygltf::Mesh& mesh = document_.gltf.meshes[i];
-      const std::string where = document_.at("meshes", i);
-      if (mesh.primitives.empty()) return invalid_asset(where, "a mesh has at least one primitive");
       std::vector<ModelPart>& parts = result_.parts_of_mesh.emplace_back();
       for (std::size_t k = 0; k < mesh.primitives.size(); ++k) {
-        Result<ModelPart> part = read_primitive(mesh.primitives[k], where + "/primitives/" + std::to_string(k));
+        const std::string where = document_.at("meshes", i) + "/primitives/" + std::to_string(k);
+        if (mesh.primitives[k].mode < TINYGLTF_MODE_TRIANGLES) {
+          result_.findings.push_back(asset_finding(Severity::warning, "asset.no-area", where,
+                                                   "points and lines have no area and are left out"));
+          continue;
+        }
+        if (is_cut_away(mesh.primitives[k].material)) continue;
+        note_vertex_alpha(mesh.primitives[k], where);
+        Result<ModelPart> part = read_primitive(mesh.primitives[k], where);
         if (!part) return part.fault();
         parts.push_back(*std::move(part));
       }
     }
+    const std::vector<Finding>& more = deformations_.findings();
+    result_.findings.insert(result_.findings.end(), more.begin(), more.end());
     return std::move(result_);
   }
 
  private:
+  TextureLayout layout_of(int material) const {
+    return material < 0 ? TextureLayout{} : materials_.layouts[static_cast<std::size_t>(material)];
+  }
+
+  bool is_cut_away(int material) const {
+    return material >= 0 && materials_.invisible[static_cast<std::size_t>(material)];
+  }
+
+  /// A material that uses alpha has the vertices', too.
+  void note_vertex_alpha(const tinygltf::Primitive& primitive, const std::string& where) {
+    const auto color = primitive.attributes.find("COLOR_0");
+    if (primitive.material < 0 || color == primitive.attributes.end()) return;
+    const bool opaque = document_.gltf.materials[static_cast<std::size_t>(primitive.material)].alphaMode == "OPAQUE";
+    if (opaque || accessor_at(document_, color->second)->type != TINYGLTF_TYPE_VEC4) return;
+    result_.findings.push_back(asset_finding(Severity::info, "asset.drawn-opaque", where + "/attributes/COLOR_0",
+                                             "the alpha of vertex colours is left out"));
+  }
+
   Result<ModelPart> read_primitive(const tinygltf::Primitive& primitive, const std::string& where) {
-    if (!primitive.targets.empty()) {
-      return unsupported_asset(where + "/targets", "morph targets are not read", "export without shape keys");
-    }
-    if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
-      return invalid_asset(where + "/mode", "glTF has no such mode");
-    }
-    if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
-      return unsupported_asset(where + "/mode", "points and lines are not drawn", "export triangles only");
-    }
-    if (primitive.material >= static_cast<int>(materials_.materials.size())) {
-      return invalid_asset(where + "/material", "there is no such material");
-    }
-    const int uv_set = primitive.material < 0 ? -1 : materials_.uv_set[static_cast<std::size_t>(primitive.material)];
-    Result<Sources> sources = find_sources(primitive, uv_set, where);
-    if (!sources) return sources.fault();
-    std::shared_ptr<const Mesh>& known = meshes_[*sources];
+    const Sources sources = find_sources(primitive);
+    std::shared_ptr<const Mesh>& known = meshes_[sources];
     if (!known) {
-      Result<Mesh> mesh = read_mesh(*sources, where);
+      Result<Mesh> mesh = read_mesh(sources, layout_of(primitive.material), where);
       if (!mesh) return mesh.fault();
       known = std::make_shared<const Mesh>(*std::move(mesh));
     }
-    return ModelPart{known, primitive.material};
+    Result<std::shared_ptr<const Deformation>> deformation = deformations_.of(primitive, where);
+    if (!deformation) return deformation.fault();
+    return ModelPart{known, primitive.material, *std::move(deformation)};
   }
 
-  Result<Sources> find_sources(const tinygltf::Primitive& primitive, int uv_set, const std::string& where) {
-    const auto position = primitive.attributes.find("POSITION");
-    if (position == primitive.attributes.end()) return invalid_asset(where + "/attributes", "there is no POSITION");
-    const tinygltf::Accessor* first = accessor_at(document_, position->second);
-    for (const auto& [name, index] : primitive.attributes) {
-      const tinygltf::Accessor* accessor = accessor_at(document_, index);
-      if (accessor == nullptr) return invalid_asset(where + "/attributes/" + name, "there is no such accessor");
-      if (first == nullptr || accessor->count != first->count) {
-        return invalid_asset(where + "/attributes/" + name, "its count differs from POSITION's");
-      }
-    }
-    const std::string uv_name = "TEXCOORD_" + std::to_string(uv_set < 0 ? 0 : uv_set);
-    Sources sources;
-    sources.mode = primitive.mode;
-    sources.indices = primitive.indices;
-    sources.position = position->second;
+  Sources find_sources(const tinygltf::Primitive& primitive) const {
     const auto attribute = [&](const std::string& name) {
       const auto found = primitive.attributes.find(name);
       return found == primitive.attributes.end() ? -1 : found->second;
     };
+    const TextureLayout layout = layout_of(primitive.material);
+    Sources sources;
+    sources.mode = primitive.mode;
+    sources.indices = primitive.indices;
+    sources.position = attribute("POSITION");
     sources.normal = attribute("NORMAL");
-    sources.uv = attribute(uv_name);
-    if (uv_set >= 0 && sources.uv < 0) {
-      return invalid_asset(where + "/attributes", "its material's texture needs " + uv_name);
-    }
-    if (attribute("COLOR_0") >= 0) {
-      result_.findings.push_back(asset_finding(Severity::info, "asset.colors", where, "vertex colours are left out"));
-    }
-    if (Status status = check_types(sources, where); !status) return status.fault();
+    sources.uv = attribute("TEXCOORD_" + std::to_string(std::max(layout.uv_set, 0)));
+    sources.color = attribute("COLOR_0");
+    sources.uv_transform = {layout.offset.x, layout.offset.y, layout.rotation, layout.scale.x, layout.scale.y};
     return sources;
   }
 
-  Status check_types(const Sources& sources, const std::string& where) {
-    const auto is_float = [](const tinygltf::Accessor& a) { return a.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT; };
-    const tinygltf::Accessor& position = *accessor_at(document_, sources.position);
-    if (position.type != TINYGLTF_TYPE_VEC3 || !is_float(position)) {
-      return invalid_asset(where + "/attributes/POSITION", "positions are vectors of three floats");
-    }
-    if (sources.normal >= 0) {
-      const tinygltf::Accessor& normal = *accessor_at(document_, sources.normal);
-      if (normal.type != TINYGLTF_TYPE_VEC3 || !is_float(normal)) {
-        return invalid_asset(where + "/attributes/NORMAL", "normals are vectors of three floats");
-      }
-    }
-    if (sources.uv >= 0) {
-      const tinygltf::Accessor& uv = *accessor_at(document_, sources.uv);
-      const bool unsigned_fraction = uv.normalized && (uv.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                                                       uv.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT);
-      if (uv.type != TINYGLTF_TYPE_VEC2 || !(is_float(uv) || unsigned_fraction)) {
-        return invalid_asset(where + "/attributes", "texture coordinates are pairs of floats or unsigned fractions");
-      }
-    }
-    if (sources.indices < 0) return {};
-    const tinygltf::Accessor* indices = accessor_at(document_, sources.indices);
-    if (indices == nullptr) return invalid_asset(where + "/indices", "there is no such accessor");
-    const bool whole = indices->componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
-                       indices->componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
-                       indices->componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-    if (indices->type != TINYGLTF_TYPE_SCALAR || !whole || indices->normalized ||
-        document_.gltf.bufferViews[static_cast<std::size_t>(indices->bufferView)].byteStride != 0) {
-      return invalid_asset(where + "/indices", "indices are packed unsigned integers");
-    }
-    return {};
-  }
-
-  Result<std::vector<std::uint32_t>> read_corners(const Sources& sources, std::size_t vertices,
-                                                  const std::string& where) {
-    std::vector<std::uint32_t> corners;
-    if (sources.indices >= 0) {
-      corners = read_integers(document_, sources.indices);
-    } else {
-      corners.resize(vertices);
-      for (std::size_t i = 0; i < vertices; ++i) corners[i] = static_cast<std::uint32_t>(i);
-    }
-    for (const std::uint32_t corner : corners) {
-      if (corner >= vertices) return invalid_asset(where + "/indices", "an index names no vertex");
-    }
-    if (corners.size() < 3 || (sources.mode == TINYGLTF_MODE_TRIANGLES && corners.size() % 3 != 0)) {
-      return invalid_asset(where, "its corners make no whole triangles");
-    }
+  std::vector<std::uint32_t> read_corners(const Sources& sources, std::size_t vertices) const {
+    if (sources.indices >= 0) return read_integers(document_, sources.indices);
+    std::vector<std::uint32_t> corners(vertices);
+    std::iota(corners.begin(), corners.end(), 0u);
     return corners;
   }
 
-  Result<Mesh> read_mesh(const Sources& sources, const std::string& where) {
+  Result<Mesh> read_mesh(const Sources& sources, const TextureLayout& layout, const std::string& where) {
     const tinygltf::Accessor* indices = accessor_at(document_, sources.indices);
     const std::size_t vertices = accessor_at(document_, sources.position)->count;
     // Before anything is allocated; a strip has almost as many triangles as corners.
@@ -178,32 +141,30 @@ class MeshReader {
     }
     result_.vertices += vertices;
     Mesh mesh;
-    const Result<std::vector<glm::dvec4>> positions = read_vectors(document_, sources.position);
-    if (!positions) return positions.fault();
-    for (const glm::dvec4& p : *positions) mesh.positions_m.emplace_back(p);
+    for (const glm::dvec4& p : read_vectors(document_, sources.position)) mesh.positions_m.emplace_back(p);
     if (sources.normal >= 0) {
-      const Result<std::vector<glm::dvec4>> normals = read_vectors(document_, sources.normal);
-      if (!normals) return normals.fault();
-      for (const glm::dvec4& n : *normals) mesh.normals.emplace_back(n);
+      for (const glm::dvec4& n : read_vectors(document_, sources.normal)) mesh.normals.emplace_back(n);
       if (!make_normals_unit(mesh)) {
         result_.findings.push_back(
             asset_finding(Severity::warning, "asset.normals", where, "a normal has no length; faces are lit flat"));
       }
     }
     if (sources.uv >= 0) {
-      const Result<std::vector<glm::dvec4>> uvs = read_vectors(document_, sources.uv);
-      if (!uvs) return uvs.fault();
-      for (const glm::dvec4& uv : *uvs) mesh.uvs.emplace_back(uv.x, 1.0 - uv.y);  // glTF counts from the upper edge
+      for (const glm::dvec4& uv : read_vectors(document_, sources.uv)) mesh.uvs.push_back(layout.uv_from(uv));
     }
-    const Result<std::vector<std::uint32_t>> corners = read_corners(sources, mesh.positions_m.size(), where);
-    if (!corners) return corners.fault();
-    mesh.triangles = triangles_from(*corners, sources.mode);
+    if (sources.color >= 0) {
+      for (const glm::dvec4& color : read_vectors(document_, sources.color)) {
+        mesh.colors.push_back(glm::clamp(glm::dvec3(color), 0.0, 1.0));  // as the specification demands
+      }
+    }
+    mesh.triangles = triangles_from(read_corners(sources, vertices), sources.mode);
     result_.triangles += mesh.triangles.size();
     return mesh;
   }
 
   const GltfDocument& document_;
   const GltfMaterials& materials_;
+  GltfDeformations deformations_;
   GltfMeshes result_;
   std::map<Sources, std::shared_ptr<const Mesh>> meshes_;
 };

@@ -1,249 +1,177 @@
 #include "io/assets/gltf_shape.h"
 
-#include <nlohmann/json.hpp>
-
+#include "io/assets/gltf_members.h"
 #include "io/assets/mesh_file.h"
 
 namespace focalstage {
 namespace {
 
-using Json = nlohmann::json;
+using Json = MemberChecker::Json;
+using Kind = MemberKind;
 
-/// What a member must be. Indices and sizes fit an int, into which tinygltf reads them.
-enum class Kind { index, size, number, boolean, text, object, indices, numbers, texts, objects, index_map };
-
-struct Member {
-  const char* name;
-  Kind kind;
-  bool required = false;
-};
-
-constexpr std::size_t most_items = 65536;  ///< of one list
-
-using Members = std::initializer_list<Member>;
-
-bool is_index(const Json& value) { return value.is_number_unsigned() && value.get<std::uint64_t>() <= 0x7FFFFFFFu; }
-
-template <class Test>
-bool all(const Json& value, Test&& test) {
-  for (const Json& item : value) {
-    if (!test(item)) return false;
-  }
-  return true;
+void check_scene(MemberChecker& check, const Json& root) {
+  check.members(root, "", {{"asset", Kind::object, true}, {"scene", Kind::index}});
+  check.members(root, "", {{"extensionsUsed", Kind::texts}, {"extensionsRequired", Kind::texts}});
+  check.inner(root, "", "asset", {{"version", Kind::text, true}, {"minVersion", Kind::text}});
+  check.each(root, "", "scenes", {{"nodes", Kind::indices}});
+  check.each(root, "", "nodes",
+             {{"children", Kind::indices},
+              {"mesh", Kind::index},
+              {"skin", Kind::index},
+              {"camera", Kind::index},
+              {"matrix", Kind::numbers},
+              {"translation", Kind::numbers},
+              {"rotation", Kind::numbers},
+              {"scale", Kind::numbers},
+              {"weights", Kind::numbers},
+              {"name", Kind::text}},
+             [&](const Json& node, const std::string& at) {
+               const bool parts = node.contains("translation") || node.contains("rotation") || node.contains("scale");
+               if (node.contains("matrix") && parts) check.invalid(at, "a node has both a matrix and its parts");
+               check.extension(node, at, "KHR_lights_punctual", {{"light", Kind::index, true}});
+             });
 }
 
-bool is_a(const Json& value, Kind kind) {
-  switch (kind) {
-    case Kind::index:
-    case Kind::size:
-      return is_index(value);
-    case Kind::number:
-      return value.is_number();
-    case Kind::boolean:
-      return value.is_boolean();
-    case Kind::text:
-      return value.is_string();
-    case Kind::object:
-      return value.is_object();
-    case Kind::indices:
-      return value.is_array() && all(value, is_index);
-    case Kind::numbers:
-      return value.is_array() && all(value, [](const Json& n) { return n.is_number(); });
-    case Kind::texts:
-      return value.is_array() && all(value, [](const Json& t) { return t.is_string(); });
-    case Kind::objects:
-      return value.is_array() && all(value, [](const Json& o) { return o.is_object(); });
-    case Kind::index_map:
-      return value.is_object() && all(value, is_index);
-  }
-  return false;
+void check_geometry(MemberChecker& check, const Json& root) {
+  check.each(root, "", "meshes",
+             {{"primitives", Kind::objects, true}, {"weights", Kind::numbers}, {"name", Kind::text}},
+             [&](const Json& mesh, const std::string& at) {
+               check.each(mesh, at, "primitives",
+                          {{"attributes", Kind::index_map, true},
+                           {"indices", Kind::index},
+                           {"material", Kind::index},
+                           {"mode", Kind::index},
+                           {"targets", Kind::index_maps},
+                           {"extensions", Kind::object}});
+             });
+  check.each(root, "", "skins",
+             {{"joints", Kind::indices, true}, {"inverseBindMatrices", Kind::index}, {"skeleton", Kind::index}});
 }
 
-class ShapeChecker {
- public:
-  explicit ShapeChecker(std::string path) : path_(std::move(path)) {}
+void check_data(MemberChecker& check, const Json& root) {
+  check.each(
+      root, "", "accessors",
+      {{"bufferView", Kind::index},
+       {"byteOffset", Kind::size},
+       {"componentType", Kind::index, true},
+       {"normalized", Kind::boolean},
+       {"count", Kind::size, true},
+       {"type", Kind::text, true},
+       {"min", Kind::numbers},
+       {"max", Kind::numbers}},
+      [&](const Json& accessor, const std::string& at) {
+        const Json* sparse = check.inner(accessor, at, "sparse", {{"count", Kind::size, true}});
+        if (sparse == nullptr) return;
+        check.members(*sparse, at + "/sparse", {{"indices", Kind::object, true}, {"values", Kind::object, true}});
+        check.inner(
+            *sparse, at + "/sparse", "indices",
+            {{"bufferView", Kind::index, true}, {"byteOffset", Kind::size}, {"componentType", Kind::index, true}});
+        check.inner(*sparse, at + "/sparse", "values", {{"bufferView", Kind::index, true}, {"byteOffset", Kind::size}});
+      });
+  check.each(root, "", "bufferViews",
+             {{"buffer", Kind::index, true},
+              {"byteOffset", Kind::size},
+              {"byteLength", Kind::size, true},
+              {"byteStride", Kind::size}});
+  check.each(root, "", "buffers", {{"uri", Kind::text}, {"byteLength", Kind::size, true}});
+}
 
-  Status check(const Json& root) {
-    members(root, "",
-            {{"asset", Kind::object, true},
-             {"scene", Kind::index},
-             {"scenes", Kind::objects},
-             {"nodes", Kind::objects},
-             {"meshes", Kind::objects},
-             {"accessors", Kind::objects},
-             {"bufferViews", Kind::objects},
-             {"buffers", Kind::objects},
-             {"materials", Kind::objects},
-             {"textures", Kind::objects},
-             {"images", Kind::objects},
-             {"samplers", Kind::objects},
-             {"animations", Kind::objects},
-             {"skins", Kind::objects},
-             {"extensionsUsed", Kind::texts},
-             {"extensionsRequired", Kind::texts}});
-    const Json* skins = find(root, "skins");
-    if (fault_.ok() && skins != nullptr && !skins->empty()) {
-      fault_ = unsupported_asset(path_ + ": /skins", "skins are not read", "bake the animation into the nodes");
-    }
-    if (fault_.ok()) scene(root);
-    if (fault_.ok()) geometry(root);
-    if (fault_.ok()) materials(root);
-    if (fault_.ok()) animations(root);
-    return fault_;
+void check_materials(MemberChecker& check, const Json& root) {
+  check.each(
+      root, "", "materials",
+      {{"name", Kind::text},
+       {"alphaMode", Kind::text},
+       {"alphaCutoff", Kind::number},
+       {"doubleSided", Kind::boolean},
+       {"extensions", Kind::object}},
+      [&](const Json& material, const std::string& at) {
+        const Json* pbr = check.inner(material, at, "pbrMetallicRoughness", {{"baseColorFactor", Kind::numbers}});
+        if (pbr == nullptr) return;
+        const std::string at_pbr = at + "/pbrMetallicRoughness";
+        const Json* texture =
+            check.inner(*pbr, at_pbr, "baseColorTexture", {{"index", Kind::index, true}, {"texCoord", Kind::index}});
+        if (texture == nullptr) return;
+        check.extension(
+            *texture, at_pbr + "/baseColorTexture", "KHR_texture_transform",
+            {{"offset", Kind::pair}, {"rotation", Kind::number}, {"scale", Kind::pair}, {"texCoord", Kind::index}});
+      });
+  check.each(root, "", "textures", {{"sampler", Kind::index}, {"source", Kind::index}, {"extensions", Kind::object}});
+  check.each(root, "", "images", {{"uri", Kind::text}, {"bufferView", Kind::index}, {"mimeType", Kind::text}},
+             [&](const Json& image, const std::string& at) {
+               if (image.contains("uri") == image.contains("bufferView")) {
+                 check.invalid(at, "an image has either a uri or a bufferView");
+               }
+             });
+  check.each(root, "", "samplers",
+             {{"wrapS", Kind::index}, {"wrapT", Kind::index}, {"magFilter", Kind::index}, {"minFilter", Kind::index}});
+}
+
+void check_cameras_and_lights(MemberChecker& check, const Json& root) {
+  check.each(root, "", "cameras", {{"type", Kind::text, true}, {"name", Kind::text}},
+             [&](const Json& camera, const std::string& at) {
+               check.inner(camera, at, "perspective",
+                           {{"yfov", Kind::number, true},
+                            {"znear", Kind::number, true},
+                            {"zfar", Kind::number},
+                            {"aspectRatio", Kind::number}});
+               check.inner(camera, at, "orthographic",
+                           {{"xmag", Kind::number, true},
+                            {"ymag", Kind::number, true},
+                            {"znear", Kind::number, true},
+                            {"zfar", Kind::number, true}});
+               const std::string type = camera.at("type").get<std::string>();
+               if (type != "perspective" && type != "orthographic") {
+                 check.invalid(at + "/type", "glTF has no such camera");
+               } else if (!camera.contains(type)) {
+                 check.invalid(at + "/" + type, "this member is missing");
+               }
+             });
+  const Json* lights = check.extension(root, "", "KHR_lights_punctual", {{"lights", Kind::objects, true}});
+  if (lights == nullptr) return;
+  check.each(*lights, "/extensions/KHR_lights_punctual", "lights",
+             {{"type", Kind::text, true},
+              {"name", Kind::text},
+              {"color", Kind::numbers},
+              {"intensity", Kind::number},
+              {"range", Kind::number},
+              {"spot", Kind::object}});
+}
+
+void check_channel(MemberChecker& check, const Json& channel, const std::string& at) {
+  const Json* target = check.inner(channel, at, "target", {{"node", Kind::index}, {"path", Kind::text, true}});
+  if (target == nullptr) return check.invalid(at + "/target", "this member is missing");
+  if (!target->contains("node")) {
+    check.unsupported(at + "/target", "a channel drives something else than a node", "export node animations only");
   }
+}
 
- private:
-  void scene(const Json& root) {
-    members(root.at("asset"), "/asset", {{"version", Kind::text, true}, {"minVersion", Kind::text}});
-    each(root, "", "scenes", {{"nodes", Kind::indices}});
-    each(root, "", "nodes",
-         {{"children", Kind::indices},
-          {"mesh", Kind::index},
-          {"skin", Kind::index},
-          {"matrix", Kind::numbers},
-          {"translation", Kind::numbers},
-          {"rotation", Kind::numbers},
-          {"scale", Kind::numbers},
-          {"weights", Kind::numbers},
-          {"name", Kind::text}},
-         [&](const Json& node, const std::string& at) {
-           const bool parts = node.contains("translation") || node.contains("rotation") || node.contains("scale");
-           if (node.contains("matrix") && parts) {
-             fault_ = invalid_asset(path_ + ": " + at, "a node has both a matrix and its parts");
-           }
-         });
-  }
-
-  void geometry(const Json& root) {
-    each(root, "", "meshes", {{"primitives", Kind::objects, true}, {"weights", Kind::numbers}, {"name", Kind::text}},
-         [&](const Json& mesh, const std::string& at) {
-           each(mesh, at, "primitives",
-                {{"attributes", Kind::index_map, true},
-                 {"indices", Kind::index},
-                 {"material", Kind::index},
-                 {"mode", Kind::index},
-                 {"targets", Kind::objects},
-                 {"extensions", Kind::object}});
-         });
-    each(root, "", "accessors",
-         {{"bufferView", Kind::index},
-          {"byteOffset", Kind::size},
-          {"componentType", Kind::index, true},
-          {"normalized", Kind::boolean},
-          {"count", Kind::size, true},
-          {"type", Kind::text, true},
-          {"sparse", Kind::object}});
-    each(root, "", "bufferViews",
-         {{"buffer", Kind::index, true},
-          {"byteOffset", Kind::size},
-          {"byteLength", Kind::size, true},
-          {"byteStride", Kind::size}});
-    each(root, "", "buffers", {{"uri", Kind::text}, {"byteLength", Kind::size, true}});
-  }
-
-  void materials(const Json& root) {
-    each(root, "", "materials",
-         {{"name", Kind::text},
-          {"pbrMetallicRoughness", Kind::object},
-          {"alphaMode", Kind::text},
-          {"alphaCutoff", Kind::number},
-          {"doubleSided", Kind::boolean},
-          {"extensions", Kind::object}},
-         [&](const Json& material, const std::string& at) {
-           const Json* pbr = find(material, "pbrMetallicRoughness");
-           if (pbr == nullptr) return;
-           const std::string at_pbr = at + "/pbrMetallicRoughness";
-           members(*pbr, at_pbr, {{"baseColorFactor", Kind::numbers}, {"baseColorTexture", Kind::object}});
-           const Json* texture = find(*pbr, "baseColorTexture");
-           if (!fault_.ok() || texture == nullptr) return;
-           members(*texture, at_pbr + "/baseColorTexture",
-                   {{"index", Kind::index, true}, {"texCoord", Kind::index}, {"extensions", Kind::object}});
-         });
-    each(root, "", "textures", {{"sampler", Kind::index}, {"source", Kind::index}, {"extensions", Kind::object}});
-    each(root, "", "images", {{"uri", Kind::text}, {"bufferView", Kind::index}, {"mimeType", Kind::text}},
-         [&](const Json& image, const std::string& at) {
-           if (image.contains("uri") == image.contains("bufferView")) {
-             fault_ = invalid_asset(path_ + ": " + at, "an image has either a uri or a bufferView");
-           }
-         });
-    each(root, "", "samplers", {{"wrapS", Kind::index}, {"wrapT", Kind::index}});
-  }
-
-  void animations(const Json& root) {
-    each(root, "", "animations",
-         {{"name", Kind::text}, {"channels", Kind::objects, true}, {"samplers", Kind::objects, true}},
-         [&](const Json& animation, const std::string& at) {
-           each(animation, at, "samplers",
-                {{"input", Kind::index, true}, {"output", Kind::index, true}, {"interpolation", Kind::text}});
-           each(animation, at, "channels", {{"sampler", Kind::index, true}, {"target", Kind::object, true}},
-                [&](const Json& channel, const std::string& at_channel) {
-                  const std::string at_target = at_channel + "/target";
-                  const Json& target = channel.at("target");
-                  members(target, at_target, {{"node", Kind::index}, {"path", Kind::text, true}});
-                  if (fault_.ok() && !target.contains("node")) {
-                    fault_ = unsupported_asset(path_ + ": " + at_target, "a channel drives something else than a node",
-                                               "export node animations only");
-                  }
-                });
-         });
-  }
-
-  static const Json* find(const Json& object, const char* name) {
-    const auto found = object.find(name);
-    return found == object.end() ? nullptr : &*found;
-  }
-
-  void members(const Json& object, const std::string& at, Members expected) {
-    for (const Member& member : expected) {
-      const Json* value = find(object, member.name);
-      if (value == nullptr ? member.required : !is_a(*value, member.kind)) {
-        fault_ = invalid_asset(path_ + ": " + at + "/" + member.name,
-                               value == nullptr ? "this member is missing" : "this member is not of glTF's type");
-        return;
-      }
-    }
-  }
-
-  void each(const Json& parent, const std::string& at, const char* list, Members expected) {
-    each(parent, at, list, expected, [](const Json&, const std::string&) {});
-  }
-
-  template <class Inner>
-  void each(const Json& parent, const std::string& at, const char* list, Members expected, Inner&& inner) {
-    const Json* items = find(parent, list);
-    if (items == nullptr) return;
-    if (items->size() > most_items) fault_ = invalid_asset(path_ + ": " + at + "/" + list, "more than 65536 items");
-    for (std::size_t i = 0; i < items->size() && fault_.ok(); ++i) {
-      const std::string at_item = at + "/" + list + "/" + std::to_string(i);
-      members((*items)[i], at_item, expected);
-      if (fault_.ok()) inner((*items)[i], at_item);
-    }
-  }
-
-  std::string path_;
-  Status fault_;
-};
-
-std::vector<std::string> uris_of(const Json& root) {
-  std::vector<std::string> uris;
-  for (const char* list : {"buffers", "images"}) {
-    if (!root.contains(list)) continue;
-    for (const Json& item : root.at(list)) {
-      if (item.contains("uri")) uris.push_back(item.at("uri").get<std::string>());
-    }
-  }
-  return uris;
+void check_animations(MemberChecker& check, const Json& root) {
+  check.each(root, "", "animations",
+             {{"name", Kind::text}, {"channels", Kind::objects, true}, {"samplers", Kind::objects, true}},
+             [&](const Json& animation, const std::string& at) {
+               check.each(animation, at, "samplers",
+                          {{"input", Kind::index, true}, {"output", Kind::index, true}, {"interpolation", Kind::text}});
+               check.each(animation, at, "channels", {{"sampler", Kind::index, true}},
+                          [&](const Json& channel, const std::string& at_channel) {
+                            check_channel(check, channel, at_channel);
+                          });
+             });
 }
 
 }  // namespace
 
-Result<std::vector<std::string>> check_gltf_shape(std::span<const std::byte> json, const std::string& path) {
+Result<nlohmann::json> check_gltf_shape(std::span<const std::byte> json, const std::string& path) {
   const auto* text = reinterpret_cast<const char*>(json.data());
   try {
-    const Json root = Json::parse(text, text + json.size());
+    Json root = Json::parse(text, text + json.size());
     if (!root.is_object()) return invalid_asset(path, "the JSON is no object");
-    if (Status shape = ShapeChecker(path).check(root); !shape) return shape.fault();
-    return uris_of(root);
+    MemberChecker check(path);
+    for (const auto part :
+         {check_scene, check_geometry, check_data, check_materials, check_cameras_and_lights, check_animations}) {
+      part(check, root);
+    }
+    if (!check.ok()) return check.status().fault();
+    return root;
   } catch (const Json::exception& error) {
     return invalid_asset(path, std::string("this is no JSON: ") + error.what());
   }

@@ -1,7 +1,10 @@
 """What a show must hold, worked out from its project by hand, so to speak: plain formulas of design section 5 and 6, one
 pixel or exposure at a time, for planes, folds, steps and boxes. Shares nothing with the engine but the project file."""
 
+import functools
+import importlib.util
 import math
+import pathlib
 
 import numpy
 
@@ -94,7 +97,21 @@ def faces_of(thing, time_s):
         add((-w / 2, -h / 2, 0), (w / 2, 0, 0), (0, h, 0))
         add((0, -h / 2, -d), (w / 2, 0, 0), (0, h, 0))
         add((0, -h / 2, -d), (0, 0, d), (0, h, 0))
+    elif "file" in mesh:
+        for name, corner, side_u, side_v, gray in figures(mesh["file"]).rectangles(time_s):
+            add(corner, side_u, side_v)
+            found[-1].name, found[-1].thing = name, {**thing, "appearance": {"unlit": [gray] * 3}}
     return found  # curved meshes have none
+
+
+@functools.lru_cache
+def figures(file):
+    """What wrote a glTF file of rectangles that move, assets/NAME.glb: NAME.py of a sample in this folder."""
+    path = next(pathlib.Path(__file__).parent.glob(f"*/{pathlib.Path(file).stem}.py"))
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 def nearest(faces, start, way):

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Compiles a sample and holds its show against tests/golden/NAME/expected.json.
+"""Compiles a sample, of projects/ or of this folder, and holds its show against tests/golden/NAME/expected.json.
 
     golden.py check NAME           for ctest: says what changed, from findings over times and pixels down to the hash
     golden.py accept [NAME...]     writes the derived values and the hash anew, on purpose (scripts/accept-goldens)
@@ -30,15 +30,20 @@ EYES = ["left", "right", "both"]
 TIME_TOLERANCE_S = 1e-9
 
 
+def folder_of(name):
+    """A ready project, or one that is here for its test alone."""
+    return next(f for f in (ROOT / "projects" / name, HERE / name) if (f / f"{name}.focal").exists())
+
+
 def load(name):
-    return (json.loads((ROOT / "projects" / name / f"{name}.focal").read_text()),
+    return (json.loads((folder_of(name) / f"{name}.focal").read_text()),
             json.loads((HERE / name / "expected.json").read_text()))
 
 
 class Compiled:
     def __init__(self, name, folder):
         self.path = pathlib.Path(folder) / f"{name}.h5"
-        ran = subprocess.run([FOCALSTAGE, "compile", ROOT / "projects" / name, "-o", self.path, "--json"],
+        ran = subprocess.run([FOCALSTAGE, "compile", folder_of(name), "-o", self.path, "--json"],
                              capture_output=True, text=True, timeout=600)
         if ran.returncode not in (0, 1):
             raise SystemExit(f"{name}: compile exits {ran.returncode}: {ran.stderr}")

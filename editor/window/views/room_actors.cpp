@@ -58,10 +58,21 @@ vtkSmartPointer<vtkTexture> picture_texture(const Texture& source) {
   }
   auto texture = vtkSmartPointer<vtkTexture>::New();
   texture->SetInputData(pixels);
-  texture->InterpolateOn();
+  texture->SetInterpolate(source.magnify == Magnify::linear);
   texture->MipmapOn();
   if (source.wrap_u == Wrap::clamp) texture->EdgeClampOn();
   return texture;
+}
+
+/// The mesh's own colours, by which VTK multiplies the texture.
+std::vector<Rgb> vertex_shades(const Drawable& drawable) {
+  std::vector<Rgb> shades;
+  if (!drawable.finish.vertex_colors) return shades;
+  for (const glm::dvec3& color : drawable.mesh->colors) {
+    const glm::dvec3 linear = drawable.finish.a * color;
+    shades.emplace_back(srgb_code(linear.r), srgb_code(linear.g), srgb_code(linear.b));
+  }
+  return shades;
 }
 
 void finish_actor(vtkActor& actor, const Finish& finish, bool has_uv, bool tinted) {
@@ -98,8 +109,9 @@ RoomActors::Part RoomActors::make(RoomMeshes& meshes, const Drawable& drawable, 
   RoomMeshes::Entry& entry = meshes.of(drawable.mesh);
   Part part{drawable.mesh, drawable.finish, tint, vtkSmartPointer<vtkPolyDataMapper>::New(),
             vtkSmartPointer<vtkActor>::New()};
-  part.mapper->SetInputData(tint.empty() ? entry.poly : coloured(*entry.poly, tint));
-  part.mapper->SetScalarVisibility(!tint.empty());
+  const std::vector<Rgb> shades = tint.empty() ? vertex_shades(drawable) : tint;
+  part.mapper->SetInputData(shades.empty() ? entry.poly : coloured(*entry.poly, shades));
+  part.mapper->SetScalarVisibility(!shades.empty());
   part.mapper->StaticOn();  // never asks its input again: 500 objects do not pay for what cannot change
   part.actor->SetMapper(part.mapper);
   finish_actor(*part.actor, drawable.finish, !drawable.mesh->uvs.empty(), !tint.empty());

@@ -108,6 +108,40 @@ TEST_CASE("the engine gives the reference's bytes") {
   MESSAGE("off " << off_by_more_than_one(fast->images, reference->images));
 }
 
+TEST_CASE("colours of vertices and textures without smoothing: the reference's bytes") {
+  CompileSettings with = settings();
+  with.channels = 3;
+  Stage stage = room();
+  auto coloured = std::make_shared<Mesh>(*plane(0.6, 0.6));
+  coloured->colors = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0.5}};
+  Drawable& far = stage.objects[1].drawables[0];
+  far.mesh = coloured;
+  far.finish.kind = Finish::Kind::textured;
+  far.finish.a = {1.0, 0.5, 0.75};
+  far.finish.vertex_colors = true;
+  Texture texture{3, 2, {}, Wrap::repeat, Wrap::repeat, Magnify::nearest};
+  for (int i = 0; i < 24; ++i) texture.rgba.push_back(static_cast<std::uint8_t>(40 * i % 256));
+  far.finish.texture = std::make_shared<const Texture>(texture);
+  const auto reference = compile_reference(stage, with);
+  REQUIRE(reference);
+  const auto fast = Compiler(with).frame(stage);
+  REQUIRE(fast);
+  CHECK(off_by_more_than_one(fast->images, reference->images) <= 27);
+  far.finish.vertex_colors = false;
+  CHECK(Compiler(with).frame(stage)->images.codes != fast->images.codes);
+}
+
+TEST_CASE("a surface whose mesh is another at the same place is looked at anew") {
+  const CompileSettings with = settings();
+  Stage stage = room();
+  Compiler kept(with);
+  REQUIRE(kept.frame(stage));
+  auto bent = std::make_shared<Mesh>(*stage.surfaces[0].drawables[0].mesh);
+  bent->positions_m[2].z += 0.2;
+  stage.surfaces[0].drawables[0].mesh = bent;
+  CHECK(kept.frame(stage)->images.codes == Compiler(with).frame(stage)->images.codes);
+}
+
 TEST_CASE("neither threads nor the vector path change a byte") {
   const CompileSettings with = settings();
   const Stage stage = room();

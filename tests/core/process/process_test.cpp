@@ -179,6 +179,20 @@ TEST_CASE("normals come along, or are made anew") {
   CHECK(back.normals[0].z == -1.0);
 }
 
+TEST_CASE("colours come along through every step") {
+  Mesh painted = grid(10, [](glm::dvec2) { return 0.0; });
+  for (const glm::dvec3& position_m : painted.positions_m) painted.colors.push_back(position_m);
+  for (const ProcessKind& step :
+       std::vector<ProcessKind>{WeldStep{1.0}, CleanStep{}, FixWindingStep{}, FlipStep{}, DecimateStep{60, {}},
+                                SmoothStep{}, SubdivideStep{}, SubdivideStep{Subdivision::sqrt3, 2}}) {
+    const Mesh made = after(painted, step);
+    REQUIRE(made.colors.size() == made.positions_m.size());
+    if (std::holds_alternative<SmoothStep>(step)) continue;  // moves places, not what they carry
+    for (std::size_t i = 0; i < made.colors.size(); ++i)
+      CHECK(glm::distance(made.colors[i], made.positions_m[i]) < 1e-9);
+  }
+}
+
 TEST_CASE("shapes that half-edges cannot hold come through every step") {
   std::mt19937 random(11);
   for (int round = 0; round < 50; ++round) {

@@ -40,6 +40,26 @@ TEST_CASE("texel centres carry the texel, half-way lies the mean of the light an
   CHECK(texture_colour(gray, {0.3, 0.9}).z == doctest::Approx(0.0030353).epsilon(1e-4));
 }
 
+TEST_CASE("a texture that is not smoothed shows the texel that a point falls in") {
+  Texture texture = corner_lit(Wrap::repeat);
+  texture.magnify = Magnify::nearest;
+  CHECK(texture_colour(texture, {0.499, 0.501}).x == 1.0);
+  CHECK(texture_colour(texture, {0.501, 0.501}).x == 0.0);
+  CHECK(texture_colour(texture, {0.499, 0.499}).x == 0.0);
+  CHECK(texture_colour(texture, {1.001, -0.001}).x == 1.0);
+}
+
+TEST_CASE("a mesh's colours run over its faces and multiply the material's, where the finish says so") {
+  Drawable drawable = triangle();
+  auto mesh = std::make_shared<Mesh>(*drawable.mesh);
+  mesh->colors = {{1, 0, 0}, {0, 1, 0}, {0, 0, 0.5}};
+  drawable.mesh = mesh;
+  drawable.finish.a = {0.5, 1, 1};
+  CHECK(colour_at(drawable, 0, {0.5, 0.25, 0.25}, glm::dvec3(0, 0, 1), {}) == glm::dvec3(0.5, 1, 1));
+  drawable.finish.vertex_colors = true;
+  CHECK(colour_at(drawable, 0, {0.5, 0.25, 0.25}, glm::dvec3(0, 0, 1), {}) == glm::dvec3(0.25, 0.25, 0.125));
+}
+
 TEST_CASE("beyond its edge a texture repeats, mirrors or ends") {
   CHECK(texture_colour(corner_lit(Wrap::repeat), {1.25, -0.25}).x == 1.0);
   CHECK(texture_colour(corner_lit(Wrap::repeat), {0.0, 0.75}).x == doctest::Approx(0.5));  // with its own right end

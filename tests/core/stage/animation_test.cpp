@@ -86,3 +86,32 @@ TEST_CASE("what no channel drives stays as the file has it, and children follow 
   // From the leaf: (1,0,0) turns to (0,1,0), moves to (0,4,0), doubles to (0,8,0), moves to (1,8,0).
   CHECK(glm::length(glm::dvec3(matrices[2] * glm::dvec4(0, 0, 0, 1)) - glm::dvec3(1, 8, 0)) < 1e-14);
 }
+
+TEST_CASE("weights of morph targets step, go straight and follow cubics, each node its own") {
+  Model model;
+  model.nodes.resize(2);
+  model.nodes[0].morph_weights = {0.5, 0.25};
+  model.nodes[1].morph_weights = {9};
+  AnimationChannel weigh = channel(Target::morph_weights, Interpolation::linear);
+  weigh.node = 0;
+  weigh.times_s = {1, 3};
+  weigh.morph_weights = {0, 1, 4, -1};
+  model.animations.push_back({"weigh", {weigh}});
+  CHECK(morph_weights_at(model, 1.5)[0] == std::vector<double>{1, 0.5});
+  CHECK(morph_weights_at(model, 0)[0] == std::vector<double>{0, 1});
+  CHECK(morph_weights_at(model, 7)[0] == std::vector<double>{4, -1});
+  CHECK(morph_weights_at(model, 1.5)[1] == std::vector<double>{9});
+  AnimationChannel& stepping = model.animations[0].channels[0];
+  stepping.interpolation = Interpolation::step;
+  CHECK(morph_weights_at(model, 2.999)[0] == std::vector<double>{0, 1});
+  stepping.interpolation = Interpolation::cubic;
+  stepping.times_s = {0, 2};
+  // x = t^3 and y = t: in-tangents, values, out-tangents of both weights at each key.
+  stepping.morph_weights = {7, 7, 0, 0, 0, 1, 12, 1, 8, 2, 7, 7};
+  for (const double t : {0.0, 0.3, 1.0, 1.7, 2.0}) {
+    CHECK(morph_weights_at(model, t)[0][0] == doctest::Approx(t * t * t).epsilon(1e-14));
+    CHECK(morph_weights_at(model, t)[0][1] == doctest::Approx(t).epsilon(1e-14));
+  }
+  // Poses know nothing of them.
+  CHECK(poses_at(model, 1)[0].translation == glm::dvec3(0));
+}

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <chrono>
 #include <random>
 
 #include "core/mesh/measure.h"
+#include "core/stage/stage.h"
 #include "io/files/files.h"
 #include "tests/io/assets/gltf_writer.h"
 
@@ -31,10 +33,45 @@ std::vector<Sample> samples() {
   list.push_back({"torus.obj", fixture("torus.obj"), {{"torus.mtl", fixture("torus.mtl")}}});
   list.push_back({"torus.gltf", fixture("torus.gltf"), {{"torus_0.bin", fixture("torus_0.bin")}}});
   list.push_back({"square.glb", square_gltf().glb(), {}});
+  const auto figures =
+      read_file(std::string(FOCALSTAGE_SOURCE_DIR) + "/tests/golden/deforming-figures/assets/figures.glb", 1 << 20);
+  if (!figures) FAIL(describe(figures.fault()));
+  list.push_back({"figures.glb", *figures, {}});
   list.push_back({"tetrahedron.off",
                   bytes_of("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n"),
                   {}});
   return list;
+}
+
+/// What a model's parts deform by names vertices, joints and nodes that there are.
+void must_deform(const Model& model, const Node& node, const ModelPart& part) {
+  const Deformation& deformation = *part.deformation;
+  const std::size_t vertices = part.mesh->positions_m.size();
+  const Skin* skin = node.skin < 0 ? nullptr : &model.skins.at(static_cast<std::size_t>(node.skin));
+  for (const MorphTarget& target : deformation.targets) {
+    REQUIRE(target.offsets_m.size() == target.vertices.size());
+    for (const std::uint32_t vertex : target.vertices) REQUIRE(vertex < vertices);
+  }
+  if (!deformation.first_share.empty()) REQUIRE(deformation.first_share.size() == vertices + 1);
+  for (const JointShare& share : deformation.shares) {
+    if (skin != nullptr) REQUIRE(share.joint < skin->joints.size());
+  }
+  if (skin == nullptr) return;
+  REQUIRE(skin->joint_from_mesh.size() == skin->joints.size());
+  for (const int joint : skin->joints) REQUIRE(static_cast<std::size_t>(joint) < model.nodes.size());
+}
+
+/// And can stand on a stage at any time.
+void must_stand(const Sample& sample, const Model& model) {
+  Project project;
+  project.objects.emplace_back();
+  project.objects[0].mesh.shape = FileMesh{sample.path};
+  const Assets assets{{{sample.path, std::make_shared<const Model>(model)}}};
+  for (const double time_s : {0.0, 0.75, 3.0}) {
+    const Result<Stage> stood = stage(project, assets, time_s);
+    REQUIRE(stood.ok());
+    for (const Drawable& drawable : stood->objects[0].drawables) REQUIRE(check_mesh(*drawable.mesh).ok());
+  }
 }
 
 /// Whatever comes of it: a fault that says where, or meshes that can be drawn.
@@ -53,8 +90,10 @@ void must_be_sound(const Sample& sample, const Bytes& bytes) {
       const bool textured =
           part.material >= 0 && file->model.materials[static_cast<std::size_t>(part.material)].texture;
       if (textured) REQUIRE_FALSE(part.mesh->uvs.empty());
+      if (part.deformation) must_deform(file->model, file->model.nodes[i], part);
     }
   }
+  if (sample.path.ends_with("glb")) must_stand(sample, file->model);
 }
 
 template <class Work>
@@ -120,8 +159,23 @@ TEST_CASE("flipped bits and changed bytes are refused or sound") {
   }
 }
 
-TEST_CASE("every number in the JSON of a glTF, replaced by any other, is refused or sound") {
-  const Gltf whole = square_gltf();
+namespace {
+
+/// The deforming figures as JSON and buffer.
+Gltf figures_gltf() {
+  const std::vector<Sample> all = samples();
+  const Bytes bytes =
+      std::find_if(all.begin(), all.end(), [](const Sample& one) { return one.path == "figures.glb"; })->bytes;
+  std::uint32_t json_bytes = 0;
+  std::memcpy(&json_bytes, bytes.data() + 12, 4);
+  Gltf gltf;
+  gltf.json = Json::parse(reinterpret_cast<const char*>(bytes.data()) + 20,
+                          reinterpret_cast<const char*>(bytes.data()) + 20 + json_bytes);
+  gltf.buffer.assign(bytes.begin() + 28 + json_bytes, bytes.end());
+  return gltf;
+}
+
+void must_bear_any_number(const Gltf& whole) {
   const Json flat = whole.json.flatten();
   const Sample sample{"a.glb", {}, {}};
   for (const auto& [pointer, value] : flat.items()) {
@@ -131,6 +185,25 @@ TEST_CASE("every number in the JSON of a glTF, replaced by any other, is refused
       Gltf spoilt = whole;
       spoilt.json[Json::json_pointer(pointer)] = other;
       CAPTURE(pointer);
+      must_be_sound(sample, spoilt.glb());
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("every number in the JSON of a glTF, replaced by any other, is refused or sound") {
+  must_bear_any_number(square_gltf());
+  must_bear_any_number(figures_gltf());
+}
+
+TEST_CASE("floats that are no numbers, or too large, in any place of a buffer are refused or sound") {
+  const Gltf whole = figures_gltf();
+  const Sample sample{"a.glb", {}, {}};
+  for (std::size_t at = 0; at + 4 <= whole.buffer.size(); at += 4) {
+    for (const std::uint32_t bits : {0x7FC00000u, 0x7F800000u, 0xFF7FFFFFu, 0xFFFFFFFFu, 1u}) {
+      Gltf spoilt = whole;
+      for (std::size_t i = 0; i < 4; ++i) spoilt.buffer[at + i] = static_cast<std::byte>(bits >> (8 * i));
       must_be_sound(sample, spoilt.glb());
     }
   }
