@@ -51,15 +51,6 @@ void add_parameters(PropertyRows& rows, const std::string& kind) {
   }
 }
 
-std::string process_text(const Value::Array& steps) {
-  std::string text;
-  for (const Value& step : steps) {
-    const Value* name = step.find("step");
-    if (name && name->text()) text += (text.empty() ? "" : ", ") + *name->text();
-  }
-  return text;
-}
-
 }  // namespace
 
 void add_mesh_rows(PropertyRows& rows) {
@@ -75,13 +66,6 @@ void add_mesh_rows(PropertyRows& rows) {
   add_parameters(rows, kind);
   if (const std::vector<Drawable>* drawables = drawables_of(rows.scope(), rows.thing())) {
     rows.shown("triangles", grouped_text(triangles_of(*drawables)));
-  }
-  const Value::Array* process = rows.at("mesh/process").array();
-  if (process && !process->empty()) {
-    Property& row = rows.shown("processed by", process_text(*process));
-    row.key = "mesh/process";
-    row.removable = true;
-    row.help = "Steps that change the mesh once it has been read.";
   }
   Value args;
   args.set("list", rows.thing().list);

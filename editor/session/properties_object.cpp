@@ -181,6 +181,7 @@ void add_surface_rows(PropertyRows& rows) {
   rows.number<Surface>("illumination", "illumination", {"", 2, 0.005}).help =
       "How brightly the surface itself is lit while the lens is at zero: 0 not, 1 fully.";
   add_mesh_rows(rows);
+  add_process_rows(rows);
   add_movement_rows(rows);
   add_listed_rows(rows);
 }
@@ -191,6 +192,7 @@ void add_object_rows(PropertyRows& rows) {
   add_depth_rows(rows);
   add_appearance_rows(rows);
   add_mesh_rows(rows);
+  add_process_rows(rows);
   add_movement_rows(rows);
   add_listed_rows(rows);
 }

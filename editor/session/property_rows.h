@@ -59,6 +59,7 @@ class PropertyRows {
 
   void group(std::string title);
   Property& add(Property::Kind kind, std::string label, Value value);
+  Property& last() { return groups_.back().rows.back(); }
 
   /// A number at a key of the item: `Struct` is what holds the key's last name.
   template <class Struct>
@@ -89,7 +90,8 @@ class PropertyRows {
 // Rows that several kinds share.
 void add_pose_rows(PropertyRows& rows);      ///< position and rotation at the frame in view
 void add_size_rows(PropertyRows& rows);      ///< scale and extent
-void add_mesh_rows(PropertyRows& rows);      ///< kind, parameters, file, process
+void add_mesh_rows(PropertyRows& rows);      ///< kind, parameters, file
+void add_process_rows(PropertyRows& rows);   ///< what is done to the mesh
 void add_movement_rows(PropertyRows& rows);  ///< track and keys
 void add_listed_rows(PropertyRows& rows);    ///< name, group, hidden, locked
 void add_name_row(PropertyRows& rows);
