@@ -10,6 +10,7 @@ focalstage_room(core/optics     USES core/stage core/scene)
 focalstage_room(core/compile    USES core/optics core/stage        PRIVATE_LIBS TBB::tbb)
 focalstage_room(core/retina     USES core/optics core/stage        PRIVATE_LIBS TBB::tbb)
 focalstage_room(core/reference  USES core/retina core/compile core/optics core/stage PRIVATE_LIBS embree TBB::tbb)
+focalstage_room(core/sensitivity USES core/reference core/optics core/stage core/scene core/mesh core/base)
 focalstage_room(core/schedule   USES core/optics core/scene)
 focalstage_room(core/percept    USES core/retina core/schedule core/compile core/optics core/stage PRIVATE_LIBS TBB::tbb)
 focalstage_room(core/tracking   USES core/scene core/base)
@@ -74,7 +75,7 @@ focalstage_room(editor/pipeline USES io/models io/project io/assets io/show core
                                      core/schedule)
 focalstage_room(editor/trials   USES editor/pipeline io/study io/protocol io/show io/project core/study)
 focalstage_room(editor/cli      USES editor/samples editor/pipeline editor/trials io/study io/models io/project io/assets io/show io/export io/plot
-                                     io/credentials io/protocol io/image core/calibrate core/check core/reference core/compile core/percept
+                                     io/credentials io/protocol io/image core/calibrate core/check core/reference core/sensitivity core/compile core/percept
                                      core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
 focalstage_room(editor/document USES editor/samples io/journal io/models io/project io/assets io/files core/scene)

@@ -1,7 +1,10 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
 #include <memory>
 
 #include "core/base/number_words.h"
+#include "core/sensitivity/sensitivity.h"
 #include "editor/cli/command_list.h"
 #include "editor/cli/output.h"
 #include "editor/cli/progress.h"
@@ -14,17 +17,28 @@ namespace {
 struct Options {
   std::string file;
   bool json = false;
+  bool sensitivity = false;
 };
 
 /// The report, and what the objects that it counts are called.
 struct CheckedNames {
   CheckReport report;
   std::vector<std::string> objects;
+  std::vector<ErrorEffect> effects;
 };
+
+/// Adds what small errors of the rig would do, where that is asked for.
+Result<CheckedNames> with_effects(const Options& options, const Source& source, Result<CheckedNames> all) {
+  if (!all || !options.sensitivity) return all;
+  auto effects = sensitivity(source.project, source.loaded.assets);
+  if (!effects) return effects.fault();
+  all->effects = *std::move(effects);
+  return all;
+}
 
 Result<CheckedNames> named(const Source& source, Result<CheckReport> report) {
   if (!report) return report.fault();
-  CheckedNames all{*std::move(report), {}};
+  CheckedNames all{*std::move(report), {}, {}};
   for (const Object& object : source.project.objects) all.objects.push_back(object.name);
   return all;
 }
@@ -35,14 +49,16 @@ Result<CheckedNames> checked(const Options& options) {
     const auto source = open_project(options.file);
     if (!source) return source.fault();
     Progress bar("Checking " + source->project.name, style);
-    return named(*source, check_project(*source, {}, [&](int done, int of) { bar.update(done, of, "frame"); }, {}));
+    const auto progress = [&](int done, int of) { bar.update(done, of, "frame"); };
+    return with_effects(options, *source, named(*source, check_project(*source, {}, progress, {})));
   }
   const auto show = ShowReader::open(options.file);
   if (!show) return show.fault();
   const auto source = project_in(*show, options.file);
   if (!source) return source.fault();
   Progress bar("Checking " + source->project.name, style);
-  return named(*source, check_show(*source, *show, [&](int done, int of) { bar.update(done, of, "frame"); }, {}));
+  const auto progress = [&](int done, int of) { bar.update(done, of, "frame"); };
+  return with_effects(options, *source, named(*source, check_show(*source, *show, progress, {})));
 }
 
 Value conflicts_value(const CheckedNames& all) {
@@ -69,15 +85,49 @@ std::string conflicts_text(const CheckedNames& all) {
          table_text({{"object"}, {"mean", true}, {"worst", true}, {"% beyond 0.5", true}}, rows);
 }
 
+Value effects_value(const std::vector<ErrorEffect>& effects) {
+  Value::Array list;
+  for (const ErrorEffect& effect : effects) {
+    Value value;
+    value.set("error", effect.error.what);
+    value.set("amount", effect.error.amount);
+    value.set("unit", effect.error.unit);
+    value.set("shift_arcmin", effect.shift_arcmin);
+    value.set("focus_d", effect.focus_d);
+    value.set("vergence_d", effect.vergence_d);
+    value.set("object", effect.object);
+    list.push_back(std::move(value));
+  }
+  return list;
+}
+
+std::string effects_text(std::vector<ErrorEffect> effects) {
+  if (effects.empty()) return "";
+  std::ranges::stable_sort(effects, std::greater(), &ErrorEffect::shift_arcmin);
+  std::vector<std::vector<std::string>> rows;
+  for (const ErrorEffect& effect : effects) {
+    if (effect.object.empty()) continue;
+    rows.push_back({effect.error.what, short_text(effect.error.amount, 3) + " " + effect.error.unit,
+                    fixed_text(effect.shift_arcmin, 2), fixed_text(effect.vergence_d, 3), fixed_text(effect.focus_d, 3),
+                    effect.object});
+  }
+  return "\nWhat an error of the rig would do: where a picture is seen (arc minutes), where eyes converge and focus "
+         "(D)\n" +
+         table_text({{"error"}, {"by", true}, {"shift", true}, {"vergence", true}, {"focus", true}, {"worst for"}},
+                    rows);
+}
+
 ExitStatus run(const Options& options) {
   const auto all = checked(options);
   if (!all) return report(all.fault());
   if (options.json) {
     Value object = findings_value(all->report.findings);
     object.set("conflict", conflicts_value(*all));
+    if (options.sensitivity) object.set("sensitivity", effects_value(all->effects));
     print_json(object);
   } else {
-    std::fputs((findings_text(all->report.findings) + conflicts_text(*all)).c_str(), stdout);
+    std::fputs((findings_text(all->report.findings) + conflicts_text(*all) + effects_text(all->effects)).c_str(),
+               stdout);
   }
   return status_of(all->report.findings);
 }
@@ -89,6 +139,8 @@ Command::Run declare_check(CLI::App& app) {
   app.add_option("FILE", options->file, "a project (NAME.focal or its folder) or a show (.h5)")
       ->required()
       ->type_name("");
+  app.add_flag("--sensitivity", options->sensitivity,
+               "tell what a millimetre, a degree, a tenth of a dioptre would do to what is seen");
   app.add_flag("--json", options->json, "print the findings as one JSON object");
   return [options] { return run(*options); };
 }
