@@ -9,13 +9,14 @@
 
 namespace focalstage {
 
-/// The mesh after all steps, in order. Codes "process.*": a step that cannot be done, or leaves no triangle; the place
+/// The mesh after all steps, in order. `scale`: how much larger it stands in the room than in its file; the lengths of
+/// steps are the room's. Codes "process.*": a step that cannot be done, or leaves no triangle; the place
 /// is the step in the list and its setting, "/2/rounds".
-Result<Mesh> processed(const Mesh& mesh, const std::vector<ProcessStep>& steps);
+Result<Mesh> processed(const Mesh& mesh, const std::vector<ProcessStep>& steps, double scale = 1.0);
 
 /// The same, kept: the 32 last asked for are the same mesh when asked for again. Any thread; two that ask for the same
 /// at once wait for one to make it.
 Result<std::shared_ptr<const Mesh>> processed_once(const std::shared_ptr<const Mesh>& mesh,
-                                                   const std::vector<ProcessStep>& steps);
+                                                   const std::vector<ProcessStep>& steps, double scale = 1.0);
 
 }  // namespace focalstage

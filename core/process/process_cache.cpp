@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/base/made_once.h"
 #include "core/process/process.h"
 #include "core/process/report.h"
@@ -10,21 +12,31 @@ namespace {
 struct ProcessKey {
   std::shared_ptr<const Mesh> mesh;
   std::vector<ProcessStep> steps;
+  double scale = 1.0;
 
   bool operator==(const ProcessKey&) const = default;
 };
 
 constexpr std::size_t most_kept = 32;
 
+/// Without a length among the steps the scale changes nothing.
+bool has_length(const ProcessStep& step) {
+  if (const auto* weld = std::get_if<WeldStep>(&step.kind)) return weld->tolerance_mm > 0.0;
+  if (const auto* fill = std::get_if<FillHolesStep>(&step.kind)) return fill->longest_mm.has_value();
+  const auto* decimate = std::get_if<DecimateStep>(&step.kind);
+  return decimate && decimate->error_mm.has_value();
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const Mesh>> processed_once(const std::shared_ptr<const Mesh>& mesh,
-                                                   const std::vector<ProcessStep>& steps) {
+                                                   const std::vector<ProcessStep>& steps, double scale) {
   using Made = Result<std::shared_ptr<const Mesh>>;
   if (steps.empty()) return mesh;
   static MadeOnce<ProcessKey, Made> kept(most_kept);
-  return kept.find_or_make({mesh, steps}, [&]() -> Made {
-    Result<Mesh> made = processed(*mesh, steps);
+  if (std::ranges::none_of(steps, has_length)) scale = 1.0;
+  return kept.find_or_make({mesh, steps, scale}, [&]() -> Made {
+    Result<Mesh> made = processed(*mesh, steps, scale);
     if (!made) return made.fault();
     return std::make_shared<const Mesh>(*std::move(made));
   });

@@ -1,7 +1,6 @@
 #include "core/process/report.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "core/process/bits.h"
 #include "core/process/borders.h"
@@ -47,12 +46,6 @@ std::string several(std::size_t count, const std::string& one, const std::string
   return std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
-std::string length_text(double length_m) {
-  char text[32];
-  std::snprintf(text, sizeof text, length_m < 1.0 ? "%.3g mm" : "%.3g m", length_m < 1.0 ? length_m * 1e3 : length_m);
-  return text;
-}
-
 }  // namespace
 
 MeshReport report_mesh(const Mesh& mesh) {
@@ -88,9 +81,7 @@ std::vector<MeshFlaw> flaws_of(const MeshReport& report) {
   add("mesh.bits", report.bits,
       several(report.bits, "loose bit is", "loose bits are") + " smaller than 1 % of the largest",
       DropBitsStep{bit_share});
-  add("mesh.holes", report.holes,
-      several(report.holes, "hole", "holes") + ", the longest " + length_text(report.longest_hole_m) + " around",
-      FillHolesStep{});
+  add("mesh.holes", report.holes, several(report.holes, "hole", "holes"), FillHolesStep{});
   return flaws;
 }
 

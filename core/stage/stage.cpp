@@ -33,8 +33,9 @@ Finish finish_for(Look look, const Material* material, const Mesh& mesh, const S
 }
 
 /// What the source's steps make of a mesh of it.
-Result<std::shared_ptr<const Mesh>> finished(const MeshSource& source, const std::shared_ptr<const Mesh>& mesh) {
-  Result<std::shared_ptr<const Mesh>> made = processed_once(mesh, source.process);
+Result<std::shared_ptr<const Mesh>> finished(const MeshSource& source, const std::shared_ptr<const Mesh>& mesh,
+                                             double scale) {
+  Result<std::shared_ptr<const Mesh>> made = processed_once(mesh, source.process, scale);
   if (made) return made;
   Fault fault = made.fault();
   fault.where = "/process" + fault.where;
@@ -73,7 +74,7 @@ class StoodModel {
   std::optional<std::vector<std::vector<double>>> weights_;
 };
 
-Result<std::vector<Drawable>> model_drawables(const Model& model, const MeshSource& source,
+Result<std::vector<Drawable>> model_drawables(const Model& model, const MeshSource& source, double scale,
                                               const glm::dmat4& world_from_thing, Look look, const Setting& setting) {
   StoodModel stood(model, setting.time_s);
   std::vector<Drawable> drawables;
@@ -87,7 +88,7 @@ Result<std::vector<Drawable>> model_drawables(const Model& model, const MeshSour
                      "remove the steps, or process the file where it was made"};
       }
       Drawable& drawable = drawables.emplace_back(stood.place(i, part));
-      Result<std::shared_ptr<const Mesh>> mesh = finished(source, drawable.mesh);
+      Result<std::shared_ptr<const Mesh>> mesh = finished(source, drawable.mesh, scale);
       if (!mesh) return mesh.fault();
       drawable.mesh = *std::move(mesh);
       drawable.world_from_mesh = world_from_thing * drawable.world_from_mesh;
@@ -97,15 +98,16 @@ Result<std::vector<Drawable>> model_drawables(const Model& model, const MeshSour
   return drawables;
 }
 
-Result<std::vector<Drawable>> drawables_of(const MeshSource& source, const glm::dmat4& world_from_thing, Look look,
-                                           const Setting& setting) {
+/// `scale`: of the thing, which is in `world_from_thing` already.
+Result<std::vector<Drawable>> drawables_of(const MeshSource& source, double scale, const glm::dmat4& world_from_thing,
+                                           Look look, const Setting& setting) {
   if (const auto* file = std::get_if<FileMesh>(&source.shape)) {
     const auto found = setting.assets.models.find(file->file);
     if (found == setting.assets.models.end() || !found->second) {
       return Fault{"stage.asset-missing", "/file", "the file " + file->file + " is not among the loaded assets",
                    "put it beside the project"};
     }
-    return model_drawables(*found->second, source, world_from_thing, look, setting);
+    return model_drawables(*found->second, source, scale, world_from_thing, look, setting);
   }
   Result<std::shared_ptr<const Mesh>> mesh = primitive_mesh(source.shape);
   if (!mesh) {
@@ -113,7 +115,7 @@ Result<std::vector<Drawable>> drawables_of(const MeshSource& source, const glm::
     fault.where = "/" + fault.where;
     return fault;
   }
-  mesh = finished(source, *mesh);
+  mesh = finished(source, *mesh, scale);
   if (!mesh) return mesh.fault();
   return std::vector<Drawable>{{*mesh, world_from_thing, finish_for(look, nullptr, **mesh, setting)}};
 }
@@ -127,7 +129,7 @@ Result<Staged> stand_up(const Thing& thing, std::size_t index, const std::string
   staged.index = index;
   staged.*world_from_thing = pose_at(thing.placement, setting.time_s);
   const glm::dmat4 matrix = glm::scale((staged.*world_from_thing).matrix(), glm::dvec3(thing.scale));
-  Result<std::vector<Drawable>> drawables = drawables_of(thing.mesh, matrix, look, setting);
+  Result<std::vector<Drawable>> drawables = drawables_of(thing.mesh, thing.scale, matrix, look, setting);
   if (!drawables) {
     Fault fault = drawables.fault();
     fault.where = "/" + list + "/" + std::to_string(index) + "/mesh" + fault.where;

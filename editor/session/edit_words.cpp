@@ -163,6 +163,43 @@ std::optional<std::string> flag_words(const Edit& edit) {
   return std::nullopt;
 }
 
+/// What a step of a mesh's processing does, said of a thing.
+constexpr std::array step_words{
+    Word{"weld", "Weld the mesh of"},
+    Word{"clean", "Clean the mesh of"},
+    Word{"drop-fins", "Drop the fins of"},
+    Word{"drop-bits", "Drop the loose bits of"},
+    Word{"fix-winding", "Fix the winding of"},
+    Word{"flip", "Flip the mesh of"},
+    Word{"fill-holes", "Fill the holes of"},
+    Word{"keep-part", "Keep one part of"},
+    Word{"decimate", "Decimate"},
+    Word{"smooth", "Smooth"},
+    Word{"subdivide", "Subdivide"},
+};
+
+/// Of a whole step; its settings are keys like others.
+std::optional<std::string> process_words(const Edit& edit, const std::vector<std::string>& steps) {
+  if (steps.size() != 3 || steps[0] != "mesh" || steps[1] != "process") return std::nullopt;
+  const Value* name = edit.value.find("step");
+  if (name && name->text()) {
+    const auto word = std::ranges::find(step_words, std::string_view(*name->text()), &Word::key);
+    if (word != step_words.end()) return std::string(word->said) + " " + edit.name;
+  }
+  const auto index = index_in(steps[2]);
+  const std::string step = "step " + (index ? std::to_string(*index + 1) : steps[2]);
+  return (edit.value.is_null() ? "Take " + step + " from" : "Change " + step + " of") + " the mesh of " + edit.name;
+}
+
+/// "rounds of step 2 of box", "highest power of the sweep"
+std::string what_words(const Edit& edit, const std::vector<std::string>& steps) {
+  if (steps.size() == 4 && steps[0] == "mesh" && steps[1] == "process") {
+    const auto index = index_in(steps[2]);
+    return key_words(steps[3]) + " of step " + std::to_string(index.value_or(0) + 1) + " of " + thing_words(edit);
+  }
+  return key_words(edit.key) + " of " + thing_words(edit);
+}
+
 std::string set_words(const Edit& edit, const Project& project) {
   if (edit.list == "slices" && edit.key == "powers_d" && edit.value.array()) return slices_words(edit, project);
   if (edit.list == "objects" && edit.key == "depth" && edit.value.object()) return depth_words(edit, project);
@@ -171,7 +208,9 @@ std::string set_words(const Edit& edit, const Project& project) {
   }
   if (const auto flag = flag_words(edit)) return *flag;
   if (edit.list.empty() && edit.key == "name") return "Call the project " + value_words(edit.value, "").value_or("");
-  const std::string what = key_words(edit.key) + " of " + thing_words(edit);
+  const std::vector<std::string> steps = pointer_steps(edit.key);
+  if (const auto process = process_words(edit, steps)) return *process;
+  const std::string what = what_words(edit, steps);
   if (edit.value.is_null()) return "Clear " + what;
   const Word* unit = unit_of(edit.key);
   const auto value = value_words(edit.value, unit ? unit->said : std::string_view());

@@ -171,6 +171,22 @@ TEST_CASE("a thing's mesh stands there after its steps, the same one in every fr
   CHECK(stage(project, {}, 1.0)->surfaces[0].drawables[0].mesh == stood->surfaces[0].drawables[0].mesh);
 }
 
+TEST_CASE("the lengths of steps are the room's, whatever the file was written in") {
+  Project project;
+  project.objects = {object("bowl", SphereMesh{500.0})};  // millimetres
+  project.objects[0].scale = 0.001;
+  const auto triangles = [&](double error_mm) {
+    project.objects[0].mesh.process = {{DecimateStep{std::nullopt, error_mm}, {}}};
+    return stage(project, {}, 0.0)->objects[0].drawables[0].mesh->triangles.size();
+  };
+  const std::size_t as_said = triangles(2.0);
+  project.objects[0].scale = 1.0;
+  project.objects[0].mesh.shape = SphereMesh{0.5};
+  const std::size_t in_metres = triangles(2.0);
+  CHECK(as_said < 3000);
+  CHECK(static_cast<double>(as_said) == doctest::Approx(static_cast<double>(in_metres)).epsilon(0.02));
+}
+
 TEST_CASE("sizes no mesh can be made of are refused") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const std::pair<MeshShape, std::string> wrong[] = {

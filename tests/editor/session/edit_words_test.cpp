@@ -66,6 +66,18 @@ TEST_CASE("depth and flags are said as what a person sees") {
   CHECK(said(set("surfaces", "wall", "locked", false)) == "Unlock wall");
 }
 
+TEST_CASE("steps of a mesh's processing are said as what they do") {
+  const auto step = [](const char* name) {
+    return set("surfaces", "wall", "mesh/process/0", Value(Value::Object{{"step", name}}));
+  };
+  CHECK(said(step("fill-holes")) == "Fill the holes of wall");
+  CHECK(said(step("fix-winding")) == "Fix the winding of wall");
+  CHECK(said(step("decimate")) == "Decimate wall");
+  CHECK(said(set("surfaces", "wall", "mesh/process/1", {})) == "Take step 2 from the mesh of wall");
+  CHECK(said(set("surfaces", "wall", "mesh/process/1/rounds", 3)) == "Set rounds of step 2 of wall to 3");
+  CHECK(said(set("surfaces", "wall", "mesh/process/1/error_mm", 0.5)) == "Set error of step 2 of wall to 0.5 mm");
+}
+
 TEST_CASE("what comes and goes is named") {
   const auto edit = [](Edit::Kind kind, Value value) {
     return Edit{kind, "objects", "兎 うさぎ", "", std::move(value)};
