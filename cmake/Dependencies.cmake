@@ -55,6 +55,16 @@ target_link_libraries(opencv::imgproc INTERFACE opencv::core)
 target_link_libraries(opencv::calib3d INTERFACE opencv::imgproc)
 target_link_libraries(opencv::aruco INTERFACE opencv::calib3d)
 
+# Debian's Draco has a tinygltf of its own inside, another than the one we link, under the same names: whichever comes
+# first serves both, and frees what the other made. Of its static library all is taken but what reads and writes glTF.
+find_library(DRACO_ARCHIVE libdraco.a REQUIRED)
+set(DRACO_WITHOUT_GLTF ${CMAKE_BINARY_DIR}/libdraco_without_gltf.a)
+configure_file(${DRACO_ARCHIVE} ${DRACO_WITHOUT_GLTF} COPYONLY)
+execute_process(COMMAND ${CMAKE_AR} d ${DRACO_WITHOUT_GLTF} gltf_decoder.cc.o gltf_encoder.cc.o gltf_utils.cc.o
+                        tiny_gltf_utils.cc.o scene_io.cc.o texture_io.cc.o COMMAND_ERROR_IS_FATAL ANY)
+add_library(draco::compression STATIC IMPORTED)
+set_target_properties(draco::compression PROPERTIES IMPORTED_LOCATION ${DRACO_WITHOUT_GLTF})
+
 # The window: GLFW, Dear ImGui with its GL3 backend and FreeType builder, and VTK by component.
 find_package(glfw3 3.3 REQUIRED)
 find_package(Freetype REQUIRED)

@@ -26,7 +26,7 @@ focalstage_room(io/image        USES io/files core/mesh            PRIVATE_LIBS 
 focalstage_room(io/project      USES io/json io/files core/scene   PRIVATE_LIBS ValiJSON::valijson nlohmann_json::nlohmann_json)
 focalstage_room(io/models       USES io/project io/json io/files core/schedule core/scene)
 focalstage_room(io/journal      USES io/json io/files core/scene)
-focalstage_room(io/assets       USES io/image io/files core/scene core/mesh PRIVATE_LIBS TinyGLTF::TinyGLTF nlohmann_json::nlohmann_json)
+focalstage_room(io/assets       USES io/image io/files core/scene core/mesh PRIVATE_LIBS TinyGLTF::TinyGLTF draco::compression nlohmann_json::nlohmann_json)
 focalstage_room(io/study        USES io/project io/json io/files core/study core/scene)
 focalstage_room(io/show         USES io/project io/assets io/files core/schedule core/compile core/stage
                                 PRIVATE_LIBS hdf5::hdf5 deflate::deflate TBB::tbb)

@@ -4,6 +4,7 @@
 #include "io/assets/gltf_cameras_lights.h"
 #include "io/assets/gltf_check.h"
 #include "io/assets/gltf_deformations.h"
+#include "io/assets/gltf_draco.h"
 #include "io/assets/gltf_materials.h"
 #include "io/assets/gltf_meshes.h"
 #include "io/assets/gltf_nodes.h"
@@ -12,9 +13,11 @@
 namespace focalstage {
 
 Result<MeshFile> read_gltf(const FileToRead& file) {
-  const Result<tinygltf::Model> gltf = parse_gltf(file);
+  Result<tinygltf::Model> gltf = parse_gltf(file);
   if (!gltf) return gltf.fault();
   const GltfDocument document{*gltf, file.path};
+  if (Status status = check_gltf_file(document); !status) return status.fault();
+  if (Status status = decode_gltf_draco(*gltf, file.path); !status) return status.fault();
   const Result<std::vector<Finding>> checked = check_gltf(document);
   if (!checked) return checked.fault();
   Result<GltfMaterials> materials = read_gltf_materials(document);

@@ -7,11 +7,11 @@
 namespace focalstage {
 namespace {
 
-constexpr std::array<std::string_view, 4> known_extensions{"KHR_materials_unlit", "KHR_texture_transform",
-                                                           "KHR_mesh_quantization", "KHR_lights_punctual"};
+constexpr std::array<std::string_view, 5> known_extensions{"KHR_materials_unlit", "KHR_texture_transform",
+                                                           "KHR_mesh_quantization", "KHR_lights_punctual",
+                                                           "KHR_draco_mesh_compression"};
 // These change what other members mean: not even a file that only "uses" them is what it seems.
-constexpr std::array<std::string_view, 3> changing_extensions{"KHR_draco_mesh_compression", "EXT_meshopt_compression",
-                                                              "EXT_mesh_gpu_instancing"};
+constexpr std::array<std::string_view, 2> changing_extensions{"EXT_meshopt_compression", "EXT_mesh_gpu_instancing"};
 
 template <std::size_t count>
 bool is_among(const std::string& name, const std::array<std::string_view, count>& names) {
@@ -64,11 +64,15 @@ Storage storage_of(const tinygltf::Accessor& accessor) {
   }
 }
 
+Status check_gltf_file(const GltfDocument& document) {
+  for (const auto part : {check_version, check_extensions, check_gltf_views}) {
+    if (Status status = part(document); !status) return status;
+  }
+  return {};
+}
+
 Result<std::vector<Finding>> check_gltf(const GltfDocument& document) {
   std::vector<Finding> findings;
-  for (const auto part : {check_version, check_extensions, check_gltf_views}) {
-    if (Status status = part(document); !status) return status.fault();
-  }
   if (Status status = check_gltf_accessors(document, findings); !status) return status.fault();
   for (const auto part : {check_gltf_materials, check_gltf_cameras_and_lights, check_gltf_meshes, check_gltf_nodes,
                           check_gltf_skins, check_gltf_animations}) {

@@ -7,11 +7,14 @@
 
 namespace focalstage {
 
-/// Holds a parsed glTF to the specification before anything is made of it: every index names something, views lie in
-/// their buffers and accessors in their views, numbers are finite, indices name vertices, nodes have one parent and no
-/// circle, skins have the joints their vertices name, animation times ascend, and every count fits. tinygltf checks
-/// almost none of it. Faults "asset.invalid", "asset.unsupported" and "asset.too-large" name the place by JSON pointer.
-/// Returns what is wrong with the file though nothing drawn depends on it.
+/// Holds the file as such: its version, the extensions it needs, and where its bufferViews lie in the buffers.
+Status check_gltf_file(const GltfDocument& document);
+
+/// Holds a parsed glTF, its file checked and its data unpacked, to the specification before anything is made of it:
+/// every index names something, accessors lie in their views, numbers are finite, indices name vertices, nodes have one
+/// parent and no circle, skins have the joints their vertices name, animation times ascend, and every count fits.
+/// tinygltf checks almost none of it. Faults "asset.invalid", "asset.unsupported" and "asset.too-large" name the place
+/// by JSON pointer. Returns what is wrong with the file though nothing drawn depends on it.
 Result<std::vector<Finding>> check_gltf(const GltfDocument& document);
 
 // Its parts, in the order in which they rely on each other ------------------------------------------------------------

@@ -41,8 +41,11 @@ void check_geometry(MemberChecker& check, const Json& root) {
                            {"indices", Kind::index},
                            {"material", Kind::index},
                            {"mode", Kind::index},
-                           {"targets", Kind::index_maps},
-                           {"extensions", Kind::object}});
+                           {"targets", Kind::index_maps}},
+                          [&](const Json& primitive, const std::string& at_primitive) {
+                            check.extension(primitive, at_primitive, "KHR_draco_mesh_compression",
+                                            {{"bufferView", Kind::index, true}, {"attributes", Kind::index_map, true}});
+                          });
              });
   check.each(root, "", "skins",
              {{"joints", Kind::indices, true}, {"inverseBindMatrices", Kind::index}, {"skeleton", Kind::index}});

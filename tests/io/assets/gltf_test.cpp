@@ -231,7 +231,7 @@ TEST_CASE("rotations and cubics are animated") {
 
 TEST_CASE("what is valid glTF but not read here is named") {
   const std::pair<std::string, std::string> cases[] = {
-      {R"({"extensionsUsed":["KHR_draco_mesh_compression"]})", "KHR_draco"},
+      {R"({"extensionsUsed":["EXT_meshopt_compression"]})", "EXT_meshopt"},
       {R"({"extensionsRequired":["EXT_texture_webp"]})", "EXT_texture_webp"},
       {R"({"asset":{"version":"1.0"}})", "glTF 2.0"},
       {R"({"asset":{"minVersion":"2.1"}})", "glTF 2.0"},
