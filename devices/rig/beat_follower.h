@@ -7,14 +7,15 @@
 namespace focalstage {
 
 struct FollowSettings {
-  double period_s = 0.0;          ///< the projector's
-  double wanted_s = 0.0;          ///< the lens drive's edge after the projector's, 0 to the period
-  double most_off_s = 20e-6;      ///< in step no further off than this
-  std::size_t looks = 5;          ///< at the edge, whose median counts: single ones are stamped late
-  double queue_s = 0.15;          ///< from asking the drive to what it then plays, about
-  double settle_s = 0.4;          ///< until that must be seen: the queue, and the board's next answer
+  double period_s = 0.0;      ///< the projector's
+  double wanted_s = 0.0;      ///< the lens drive's edge after the projector's, 0 to the period
+  double most_off_s = 20e-6;  ///< in step no further off than this
+  std::size_t looks = 16;  ///< at the edge, whose mean counts without those that were stamped late: edges come with the
+                           ///< steps of the drive's own time
+  double queue_s = 0.15;   ///< from asking the drive to what it then plays, about
+  double settle_s = 0.4;   ///< until that must be seen: the queue, and the board's next answer
   double most_correction = 1e-3;  ///< of the drive's period, either way
-  double silence_s = 0.5;         ///< without a look for so long, nothing is known any more
+  double gap_s = 0.5;             ///< without a look for so long, it begins to look anew
 };
 
 /// What the lens drive is to do from its next free period on.
@@ -33,18 +34,22 @@ class BeatFollower {
   BeatFollower() = default;
   explicit BeatFollower(const FollowSettings& settings);
 
-  /// The drive's edge was seen `after_s` after the projector's, both by true time; what is to be done about it.
-  std::optional<Steering> sees(double now_s, double after_s);
+  /// Another place for the drive's edge, of a projector's period that is known better by now.
+  void want(double wanted_s) { settings_.wanted_s = wanted_s; }
+
+  /// At `seen_s`, by the drive's periods, its edge was seen `after_s` after the projector's, of a period as the
+  /// settings have it; what is to be done about it.
+  std::optional<Steering> sees(double seen_s, double after_s);
 
   /// As of the newest looks the drive is within the bound, and was before.
-  bool in_step(double now_s) const;
+  bool in_step() const;
 
   /// How late the edge was against where it is wanted, at the newest looks.
   std::optional<double> late_s() const { return late_s_; }
 
  private:
   double late(double after_s) const;
-  std::optional<Steering> correct(double now_s);
+  std::optional<Steering> correct(double seen_s);
 
   FollowSettings settings_;
   std::vector<double> looks_s_;

@@ -16,7 +16,11 @@ namespace {
 constexpr double periods_to_light = 4.0;
 // So long the projector's periods are measured before the drive is told to follow them.
 constexpr double measuring_s = 0.5;
-// A drive of a well-made crystal, and a projector whose period is measured to about 0.2 %.
+// The projector's period may differ so much from the show's; a measurement that says more is none.
+constexpr double most_apart = 2.5e-3;
+// Without a look at the drive's edge for so long, nothing is known any more.
+constexpr double most_unseen_s = 0.8;
+// That, and a drive's crystal.
 constexpr double most_correction = 3e-3;
 
 Fault late_pictures() {
@@ -84,8 +88,10 @@ Status ProjectorLed::prepare(double now_s) {
     started_s_ = now_s;
   }
   if (now_s - started_s_ < measuring_s || report.periods == first_report_->periods) return {};
-  period_s_ = (*report.newest_period_s - *first_report_->newest_period_s) /
-              static_cast<double>(report.periods - first_report_->periods);
+  const double measured_s = (*report.newest_period_s - *first_report_->newest_period_s) /
+                            static_cast<double>(report.periods - first_report_->periods);
+  const double show_s = score_->drive.period_s;
+  period_s_ = std::abs(measured_s / show_s - 1.0) <= most_apart ? measured_s : show_s;
   if (Status loaded = devices_.board->load(shutter_table(*score_, first_light_s_)); !loaded) return loaded;
   FollowSettings settings;
   settings.period_s = period_s_;
@@ -94,16 +100,22 @@ Status ProjectorLed::prepare(double now_s) {
   follower_ = BeatFollower(settings);
   if (Status steered = devices_.lens->steer(period_s_, 0.0); !steered) return steered;
   stage_ = Stage::following;
+  lens_seen_s_ = now_s;
   return {};
 }
 
-/// The board's clock is half a percent off at worst, and the same for both times.
+/// The board's clock is off, but for both its times alike. The projector's period is known best by what the drive, once
+/// in step, was steered to.
 Status ProjectorLed::follow(double now_s) {
   const BoardReport board = devices_.board->report();
   if (!board.lens || !board.period_s || board.lens->edges == lens_edges_) return {};
   lens_edges_ = board.lens->edges;
-  const double after_s = board.lens->after_s * period_s_ / *board.period_s - devices_.lens->report().edge_late_s;
-  const auto steering = follower_.sees(now_s, wrapped_s(after_s, period_s_));
+  lens_seen_s_ = now_s;
+  const DriveReport drive = devices_.lens->report();
+  const double after_s = board.lens->after_s * period_s_ / *board.period_s - drive.edge_late_s;
+  follower_.want(wrapped_s(-first_light_s_ * period_s_ / drive.period_s, period_s_));
+  // By the drive's own periods: what was asked of it comes by those.
+  const auto steering = follower_.sees(static_cast<double>(lens_edges_) * period_s_, wrapped_s(after_s, period_s_));
   return steering ? devices_.lens->steer(steering->period_s, steering->later_s) : Status();
 }
 
@@ -156,7 +168,7 @@ Status ProjectorLed::step(double now_s) {
   }
   if (stage_ != Stage::following && stage_ != Stage::lit) return {};
   if (Status followed = follow(now_s); !followed) return followed;
-  const bool in_step = follower_.in_step(now_s);
+  const bool in_step = follower_.in_step() && now_s - lens_seen_s_ <= most_unseen_s;
   if (stage_ == Stage::lit && !in_step) return out_of_step(follower_);
   if (stage_ == Stage::following && in_step) {
     if (Status begun = begin_light(now_s); !begun) return begun;

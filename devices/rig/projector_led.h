@@ -47,6 +47,7 @@ class ProjectorLed final : public Leader {
   double period_s_ = 0.0;                        ///< the projector's, by the monotonic clock
   BeatFollower follower_;
   std::uint64_t lens_edges_ = 0;  ///< that were looked at
+  double lens_seen_s_ = 0.0;
   std::deque<HandedSweep> sweeps_;
   std::optional<std::vector<Picture>> next_;  ///< of the first of those, which the projector has no room for yet
   std::uint64_t missed_ = 0;                  ///< before it had pictures to show

@@ -71,7 +71,7 @@ class UnoBoard final : public TriggerBoard {
   std::mutex asking_;     ///< one job at a time; `dark` does not take it
   std::jthread worker_;
   double next_beat_s_ = 0.0;       ///< of the worker alone
-  bool has_lens_input_ = true;     ///< of the worker alone: until its firmware says that it knows no such thing
+  double next_lens_s_ = 0.0;       ///< of the worker alone; never, once its firmware says that it knows no such thing
   unsigned newest_lens_edge_ = 0;  ///< of the worker alone
 
   mutable std::mutex mutex_;  ///< what follows, for moments only

@@ -10,8 +10,10 @@ namespace focalstage::uno {
 namespace {
 
 constexpr double beat_s = 0.1;
+constexpr double lens_beat_s = 0.03;  // where a lens drive's edges come: a rig steers by them
 constexpr double silence_s = 0.5;
 constexpr double dark_again_s = 0.01;
+constexpr double never_s = 1e300;
 constexpr double edge_wait_s = 0.004;
 constexpr unsigned told = 1;     // the reason of a darkness
 constexpr unsigned not_now = 7;  // the board's error
@@ -24,7 +26,7 @@ void UnoBoard::run(Dialogue& dialogue) {
   // On a crowded machine half a second may pass before a thread of no rank gets its turn, and the board then goes dark.
   prefer_this_thread();
   next_beat_s_ = 0.0;
-  has_lens_input_ = true;
+  next_lens_s_ = 0.0;
   newest_lens_edge_ = 0;
   focalstage::Status going;
   while (going) {
@@ -69,7 +71,8 @@ focalstage::Status UnoBoard::turn(Dialogue& dialogue) {
   if (dark != 0) return make_dark(dialogue, dark);
   if (job != nullptr) return do_job(dialogue, *job);
   if (monotonic_s() >= next_beat_s_) return beat(dialogue);
-  return dialogue.listen(next_beat_s_);
+  if (monotonic_s() >= next_lens_s_) return ask_for_lens_edge(dialogue);
+  return dialogue.listen(std::min(next_beat_s_, next_lens_s_));
 }
 
 focalstage::Status UnoBoard::make_dark(Dialogue& dialogue, std::uint64_t asked) {
@@ -174,16 +177,17 @@ focalstage::Status UnoBoard::beat(Dialogue& dialogue) {
   if (!reply) return reply.fault().code == "uno.woken" ? focalstage::Status{} : reply.fault();
   next_beat_s_ = monotonic_s() + beat_s;
   if (const auto status = decode_status(reply->words)) take_status(dialogue, *status);
-  return has_lens_input_ ? ask_for_lens_edge(dialogue) : focalstage::Status{};
+  return {};
 }
 
 focalstage::Status UnoBoard::ask_for_lens_edge(Dialogue& dialogue) {
   const double asked_s = monotonic_s();
   const Result<Reply> reply = answer_to(dialogue, "LENS", silent_at_s(dialogue));
   if (!reply) return reply.fault().code == "uno.woken" ? focalstage::Status{} : reply.fault();
-  has_lens_input_ = reply->kind != ReplyKind::error;
+  next_lens_s_ = reply->kind == ReplyKind::error ? never_s : asked_s + beat_s;
   const auto lens = decode_lens(reply->words);
   if (!lens || lens->edges == newest_lens_edge_) return {};
+  next_lens_s_ = asked_s + lens_beat_s;
   const std::lock_guard lock(mutex_);
   const std::uint64_t before = report_.lens ? report_.lens->edges : 0;
   const unsigned more = (lens->edges - newest_lens_edge_) & 0xFFFFU;

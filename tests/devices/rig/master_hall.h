@@ -35,6 +35,7 @@ struct MasterHall {
   std::vector<Exposures> exposures;
   int arms = 0;
   bool lens_wired = true;
+  static constexpr double scan_s = 1.0 / 24e3;
 
   bool projector_on = false;
   double projector_s = 0.0;  ///< its newest period
@@ -107,14 +108,14 @@ struct MasterHall {
     }
   }
 
-  /// Ten times a second, as the board is asked.
+  /// As often as the board is asked. The drive's edges come with its scans.
   void look() {
-    if (now_s - looked_s < 0.1) return;
+    if (now_s - looked_s < 0.03) return;
     looked_s = now_s;
     if (!lens_wired || edges == 0 || lens_edges == told_edges) return;
     told_edges = lens_edges;
     const double edge_s = projector_s + first_light_s;
-    double after_s = drive_s - edge_s;
+    double after_s = drive_s + scan_s * std::fmod(0.4 * static_cast<double>(drive_periods), 1.0) - edge_s;
     after_s -= projector_period_s * std::floor(after_s / projector_period_s);
     told = LensEdge{lens_edges, after_s * (1.0 + 1e-6 * board_ppm), now_s};
   }
@@ -159,6 +160,7 @@ class HallLens final : public LensDrive {
     report.periods = hall_.drive_periods;
     report.newest_period_s = hall_.drive_s + 0.0015;  // known to a millisecond or two
     report.period_s = hall_.drive_period_s;
+    report.edge_late_s = 0.4 * MasterHall::scan_s;  // of 0, 0.4, 0.8, 0.2, 0.6
     return report;
   }
 
