@@ -2,11 +2,19 @@
 
 #include <doctest/doctest.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
 #include "core/calibrate/scan_mesh.h"
+#include "io/files/files.h"
+#include "io/image/png.h"
+#include "io/project/project_file.h"
 #include "tests/core/calibrate/simulated_board.h"
 
 using namespace focalstage;
@@ -73,6 +81,15 @@ std::vector<own::Thing> with_board(const Held& where) {
   const auto gray = [](double, double) -> std::optional<double> { return 0.4; };
   return {own::sheet({-9.0, -9.0, -1.6}, own::turned(0.0, 0.0, 0.0), gray),
           own::sheet(where.corner, where.turn, own::charuco(board))};
+}
+
+/// The same camera with half its pixels.
+own::Lens small_camera() {
+  own::Lens lens = camera();
+  lens.width /= 2;
+  lens.height /= 2;
+  for (double* length : {&lens.fx, &lens.fy, &lens.cx, &lens.cy}) *length /= 2.0;
+  return lens;
 }
 
 ScannedCapture scanned(const std::string& name, const std::vector<own::Thing>& things, const own::Lens& from,
@@ -284,4 +301,60 @@ TEST_CASE("too few boards, and a world without one: refused by name") {
   REQUIRE_FALSE(scan);
   CHECK(scan.fault().code == "scan.world");
   CHECK(scan.fault().where == "room");
+}
+
+TEST_CASE("the command line does the same with pictures on disk, and changes the project") {
+  namespace fs = std::filesystem;
+  const fs::path at = fs::temp_directory_path() / ("focalstage-scan-" + std::to_string(::getpid()));
+  const auto run = [&](const std::string& arguments) {
+    const std::string quoted = std::string("'") + FOCALSTAGE_PROGRAM + "' calibrate " + arguments;
+    return std::system((quoted + " > '" + (at / "out.json").string() + "'").c_str());
+  };
+  fs::create_directories(at / "room");
+  Project project;
+  project.name = "room";
+  project.projectors.emplace_back();
+  project.projectors[0].name = "main";
+  project.projectors[0].width_px = set.width_px;
+  project.projectors[0].height_px = set.height_px;
+  project.projectors[0].gamma = set.gamma;
+  project.slices.powers_d = {0.0};
+  REQUIRE(save_project(project, at / "room" / "room.focal").ok());
+  REQUIRE(run("patterns '" + (at / "room").string() + "' -o '" + (at / "scan").string() + "'") == 0);
+  std::string entries;
+  for (std::size_t i = 0; i < 5; ++i) {
+    const std::string name = i < 4 ? "board-" + std::to_string(i + 1) : "surface";
+    own::Shot shot;
+    shot.exposure = 0.9;
+    shot.samples = 3;
+    own::Photographer photographer(i < 4 ? with_board(held[i]) : wall_and_sheet(), projector(), small_camera(), shot,
+                                   static_cast<std::uint32_t>(i + 70));
+    const Capture capture = photographer.capture(set);
+    fs::create_directories(at / "scan" / name);
+    for (std::size_t k = 0; k < capture.size(); ++k) {
+      const fs::path file = at / "scan" / name / ("shot" + std::to_string(k) + ".png");
+      REQUIRE(write_png(file, capture[k].width_px, capture[k].height_px, 1, capture[k].gray).ok());
+    }
+    entries += (i == 0 ? "" : ", ") + ("{\"folder\": \"" + name + "\", \"board\": " + (i < 4 ? "true}" : "false}"));
+  }
+  const Rigid board_at = world_from_board(held[0]);
+  char text[1000];
+  std::snprintf(text, sizeof text,
+                "{\"board\": {\"squares\": [9, 7], \"square_m\": 0.06, \"marker_m\": 0.036}, \"captures\": [%s], "
+                "\"world\": {\"capture\": \"board-1\", \"position_m\": [%.17g, %.17g, %.17g], "
+                "\"rotation_xyzw\": [%.17g, %.17g, %.17g, %.17g]}}",
+                entries.c_str(), board_at.position_m.x, board_at.position_m.y, board_at.position_m.z,
+                board_at.rotation.x, board_at.rotation.y, board_at.rotation.z, board_at.rotation.w);
+  REQUIRE(write_file_atomically(at / "scan" / "scan.json", std::string_view(text)).ok());
+  CHECK(run("scan '" + (at / "scan").string() + "' '" + (at / "room").string() + "' --json --mesh '" +
+            (at / "surface.ply").string() + "'") == 0);
+  const auto saved = load_project(at / "room");
+  REQUIRE(saved);
+  const ProjectorModel found = projector_model(saved->project.projectors[0]);
+  MESSAGE("four boards, a camera of 640 x 480: off by ", off_mm(found, projector()), " mm, ",
+          off_deg(found, projector()), " degrees");
+  CHECK(off_mm(found, projector()) < 8.0);
+  CHECK(reprojection_median_px(found) < 0.3);
+  CHECK(fs::file_size(at / "surface.ply") > 100000);
+  fs::remove_all(at);
 }
