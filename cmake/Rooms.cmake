@@ -16,7 +16,8 @@ focalstage_room(core/percept    USES core/retina core/schedule core/compile core
 focalstage_room(core/tracking   USES core/scene core/base)
 focalstage_room(core/study      USES core/base                     PRIVATE_LIBS Boost::headers)
 focalstage_room(core/stripes    USES core/base                     PRIVATE_LIBS Eigen3::Eigen)
-focalstage_room(core/calibrate  USES core/optics core/stage core/scene core/base PRIVATE_LIBS opencv::calib3d opencv::core Eigen3::Eigen Boost::headers)
+focalstage_room(core/calibrate  USES core/stripes core/optics core/stage core/scene core/base
+                                PRIVATE_LIBS opencv::aruco opencv::calib3d opencv::core Eigen3::Eigen Boost::headers)
 focalstage_room(core/check      USES core/process core/percept core/compile core/schedule core/optics core/scene)
 
 # io: everything that becomes bytes

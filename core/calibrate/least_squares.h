@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -11,6 +12,12 @@ namespace focalstage {
 
 /// Fills in the residuals of unknowns; false where those cannot be (a point behind what looks at it).
 using Residuals = std::function<bool(const Eigen::VectorXd& unknowns, Eigen::VectorXd& residuals)>;
+
+/// Residuals that some of the unknowns alone decide: the slopes by all others are none, and are not looked for.
+struct ResidualBlock {
+  std::vector<Eigen::Index> unknowns;
+  Residuals residuals;  ///< of all unknowns
+};
 
 struct LeastSquares {
   Eigen::VectorXd unknowns;
@@ -24,6 +31,10 @@ struct LeastSquares {
 /// Nielsen, O. Tingleff, "Methods for non-linear least squares problems", 2004, algorithm 3.16). `scale`: a change of
 /// each unknown that matters alike. None where the residuals of `first` cannot be, or the unknowns are not determined.
 std::optional<LeastSquares> least_squares(const Residuals& residuals, const Eigen::VectorXd& first,
+                                          const Eigen::VectorXd& scale);
+
+/// The same of residuals that come in blocks, one after the other.
+std::optional<LeastSquares> least_squares(const std::vector<ResidualBlock>& blocks, const Eigen::VectorXd& first,
                                           const Eigen::VectorXd& scale);
 
 }  // namespace focalstage

@@ -16,12 +16,12 @@ namespace {
 
 constexpr int lit_codes = 12;  // white over black
 constexpr int saturated_code = 254;
-constexpr double least_swing = 4.0;       // codes
-constexpr double most_swing_share = 0.4;  // of white's light: what the patterns swing by
-constexpr double cells_off = 1.0;         // stripes between code and sine beyond which a pixel is not believed
-constexpr double least_share = 0.005;     // of the picture must be told
-constexpr double most_jumps = 0.4;        // of the places where one bit alone changes
-constexpr double least_agreeing = 0.6;    // of the lit pixels: code and sine
+constexpr double least_swing = 4.0;     // codes
+constexpr double clear_swing = 40.0;    // codes: nothing is gained by more
+constexpr double cells_off = 1.0;       // stripes between code and sine beyond which a pixel is not believed
+constexpr double least_share = 0.005;   // of the picture must be told
+constexpr double most_jumps = 0.4;      // of the places where one bit alone changes
+constexpr double least_agreeing = 0.6;  // of the lit pixels: code and sine
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 
 /// A sine through the steps at one pixel.
@@ -194,8 +194,7 @@ Places places_along(const CaptureView& view, PatternAxis axis, const std::vector
     if (std::abs(at - coarse) > cells_off * set.stripe_px || at < 0.0 || at > length) continue;
     places.agreeing += 1.0;
     places.at[i] = static_cast<float>(at);
-    const double light = view.white().gray[i] - view.black().gray[i];
-    places.confidence[i] = static_cast<float>(std::min(1.0, wave.swing / (most_swing_share * light)));
+    places.confidence[i] = static_cast<float>(std::min(1.0, wave.swing / clear_swing));
   }
   if (swinging > 0.0) places.agreeing /= swinging;
   return places;

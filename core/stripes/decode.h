@@ -13,7 +13,8 @@ struct DecodedCapture {
   int height_px = 0;
   std::vector<float> u;  ///< projector pixels, pixel i covers [i, i + 1)
   std::vector<float> v;
-  std::vector<float> confidence;  ///< 0 to 1: how much of white's light the sine still swings by
+  std::vector<float> confidence;  ///< 0 to 1: the sine swings by 40 codes of the camera or more; places are as unsure
+                                  ///< as its inverse
   double share = 0.0;             ///< of the camera's picture that has a place
 };
 

@@ -14,6 +14,10 @@ struct CalibrateOptions {
   std::string projector;  ///< empty: as the input says, or the only one
   std::string output;
   std::string picture;  ///< of what parts of the projector's picture were measured
+  std::string mesh;     ///< of the scanned surface
+  int stripe_px = 4;
+  int period_px = 16;
+  int steps = 8;
   std::string solve = "pose";
   double limit_px = calibration_limit_px;
   bool despite_residual = false;
@@ -22,6 +26,8 @@ struct CalibrateOptions {
 };
 
 ExitStatus run_calibrate_points(const CalibrateOptions& options);
+ExitStatus run_calibrate_patterns(const CalibrateOptions& options);
+ExitStatus run_calibrate_scan(const CalibrateOptions& options);
 ExitStatus run_calibrate_verify(const CalibrateOptions& options);
 
 }  // namespace focalstage

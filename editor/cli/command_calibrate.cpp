@@ -40,6 +40,32 @@ void declare_points(CLI::App& app, CalibrateOptions& options) {
   add_result(app, options);
 }
 
+void declare_patterns(CLI::App& app, CalibrateOptions& options) {
+  add_project(app, options);
+  app.add_option("-o,--output", options.output, "the folder to write into")->required()->type_name("DIR");
+  app.add_option("--stripe-px", options.stripe_px, "the narrowest stripes; wider ones for a camera out of focus")
+      ->check(CLI::Range(1, 64).name(""))
+      ->type_name("PX")
+      ->capture_default_str();
+  app.add_option("--period-px", options.period_px, "of the sine; four stripes at least")
+      ->check(CLI::Range(4, 1024).name(""))
+      ->type_name("PX")
+      ->capture_default_str();
+  app.add_option("--steps", options.steps, "of the sine; more bear more noise")
+      ->check(CLI::Range(4, 32).name(""))
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+void declare_scan(CLI::App& app, CalibrateOptions& options) {
+  app.add_option("DIR", options.input, "the folder of captures, with patterns.json and scan.json")
+      ->required()
+      ->type_name("");
+  add_project(app, options);
+  app.add_option("--mesh", options.mesh, "write the scanned surface")->type_name("OUT.ply");
+  add_result(app, options);
+}
+
 void declare_verify(CLI::App& app, CalibrateOptions& options) {
   add_project(app, options);
   app.add_option("-o,--output", options.output, "the picture to project")->required()->type_name("PNG");
@@ -56,6 +82,10 @@ Command::Run declare_calibrate(CLI::App& app) {
     return below;
   };
   declare_points(*add("points", "Pose, and lens if asked, from picked points.", run_calibrate_points), *options);
+  declare_patterns(*add("patterns", "Write the patterns for a camera to see, and a board.", run_calibrate_patterns),
+                   *options);
+  declare_scan(*add("scan", "Lens, pose and surface, from camera pictures of the patterns.", run_calibrate_scan),
+               *options);
   declare_verify(*add("verify", "Draw the model's edges as the projector must show them.", run_calibrate_verify),
                  *options);
   app.require_subcommand(1);

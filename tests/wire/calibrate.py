@@ -48,6 +48,7 @@ def write(at, rows, **more):
 def gray(path):
     """The rows of an 8-bit gray PNG."""
     data, at, parts = path.read_bytes(), 8, b""
+    WIDTH, HEIGHT = struct.unpack(">II", data[16:24])
     while at < len(data):
         size, kind = struct.unpack(">I4s", data[at:at + 8])
         parts += data[at + 8:at + 8 + size] if kind == b"IDAT" else b""
@@ -63,6 +64,96 @@ def gray(path):
         rows.append(line)
         before = line
     return rows
+
+
+def write_gray(path, rows):
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+    raw = b"".join(b"\0" + bytes(row) for row in rows)
+    head = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 0, 0, 0, 0)
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(raw, 1)) + chunk(b"IEND", b""))
+
+
+def captured(at):
+    """The patterns as a camera that stands where the projector stands sees them on a blotchy wall."""
+    project(at, width_px=128, height_px=96, cx_px=64.0, cy_px=48.0)
+    succeed("calibrate", "patterns", at / "room", "-o", at / "scan")
+    (at / "scan" / "one").mkdir()
+    wall = [[0.5 + 0.2 * math.sin(0.31 * x + 0.17 * y) + 0.15 * math.sin(0.23 * y - 0.05 * x) for x in range(128)]
+            for y in range(96)]
+    for file in sorted((at / "scan").glob("[0-9]*.png")):
+        rows = gray(file)
+        write_gray(at / "scan" / "one" / file.name,
+                   [[int(8 + 0.9 * code * white) for code, white in zip(row, blotches)] for row, blotches in zip(rows, wall)])
+    return at / "scan"
+
+
+def write_scan(folder, **changes):
+    scan = {"board": {"squares": [9, 7], "square_m": 0.05, "marker_m": 0.03}, "captures": [{"folder": "one"}],
+            "world": {"capture": "one", "position_m": [0, 0, -1]}, **changes}
+    (folder / "scan.json").write_text(json.dumps(scan))
+
+
+def test_patterns_are_pictures_and_a_manifest():
+    with folder() as at:
+        project(at, width_px=128, height_px=96, cx_px=64.0, cy_px=48.0)
+        out = succeed("calibrate", "patterns", at / "room", "-o", at / "scan").out
+        manifest = json.loads((at / "scan" / "patterns.json").read_text())
+        names = [path.name for path in sorted((at / "scan").glob("[0-9]*.png"))]
+        assert names == manifest["pictures"] and f"{len(names)} patterns of 128 x 96" in out, (names, out)
+        assert all(code == 255 for row in gray(at / "scan" / "00-white.png") for code in row)
+        stripes = gray(at / "scan" / "02-columns-code-0.png")
+        assert [stripes[50][x] for x in (0, 63, 64, 127)] == [0, 0, 255, 255]
+        assert (at / "scan" / "board.png").exists()
+        expect(focalstage("calibrate", "patterns", at / "room", "-o", at / "x", "--stripe-px", 8), INVALID, "stripes.set")
+        expect(focalstage("calibrate", "patterns", at / "room", "-o", at / "x", "--steps", 99), USAGE)
+
+
+def test_captures_that_lie_are_refused_by_their_pictures():
+    with folder() as at:
+        scan = captured(at)
+        one = scan / "one"
+        project_text = (at / "room" / "room.focal").read_bytes()
+
+        def refused(*words):
+            expect(focalstage("calibrate", "scan", scan, at / "room"), INVALID, *words)
+
+        refused("scan.json")
+        write_scan(scan, world={"capture": "two", "position_m": [0, 0, -1]})
+        refused("scan.file", "/world/capture", "two")
+        write_scan(scan, world={"capture": "one"})
+        refused("scan.file", "/world", "marks")
+        write_scan(scan, captures=[{"folder": "one", "board": True}])
+        refused("board.unseen", "one", "00-white.png")
+        write_scan(scan, world={"capture": "one", "marks": [{"pixel": [3, 4], "world_m": [0, 0, -1]}]})
+        refused("scan.few")
+        kept = {path.name: path.read_bytes() for path in one.iterdir()}
+
+        def spoilt(name, rows, *words):
+            write_gray(one / name, rows)
+            refused(*words, name)
+            (one / name).write_bytes(kept[name])
+
+        a, b = "04-columns-code-1.png", "08-columns-code-3.png"
+        (one / a).write_bytes(kept[b])
+        (one / b).write_bytes(kept[a])
+        refused("capture.order", a, b)
+        (one / a).write_bytes(kept[a])
+        (one / b).write_bytes(kept[b])
+        rows = gray(one / a)
+        spoilt(a, [row[::-1] for row in rows[::-1]], "capture.turned")
+        spoilt(a, [list(column) for column in zip(*rows)], "capture.size")
+        white = gray(one / "00-white.png")
+        spoilt("00-white.png", [[min(255, 3 * code) for code in row] for row in white], "capture.over-exposed")
+        spoilt("00-white.png", [[8] * 128 for row in white], "capture.dark")
+        again = [name for name in kept if "white-again" in name][0]
+        spoilt(again, [[row[0], *row[:-1]] for row in white], "capture.moved")
+        (one / a).write_bytes(kept[a][:200])
+        refused(a)
+        (one / a).unlink()
+        refused("capture.missing", "04-columns-code-1")
+        assert (at / "room" / "room.focal").read_bytes() == project_text
 
 
 def test_points_become_the_projectors_pose():
@@ -164,6 +255,7 @@ def test_verify_draws_the_models_edges_where_they_stand():
 
 
 if __name__ == "__main__":
-    main([test_points_become_the_projectors_pose, test_the_lens_comes_out_where_asked,
+    main([test_patterns_are_pictures_and_a_manifest, test_captures_that_lie_are_refused_by_their_pictures,
+          test_points_become_the_projectors_pose, test_the_lens_comes_out_where_asked,
           test_a_bad_fit_is_applied_only_deliberately, test_refusals_name_file_and_point_and_change_nothing,
           test_verify_draws_the_models_edges_where_they_stand])

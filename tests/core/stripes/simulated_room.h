@@ -54,23 +54,22 @@ inline Thing sheet(const Vector& corner, const Matrix& world_from_sheet, Paint p
                std::move(paint));
 }
 
-/// A wall that swells and falls about z = depth, found by halving.
+/// A wall that swells and falls gently about z = depth: the ray meets it again and again at the height of the last
+/// place.
 inline Thing wavy_wall(double depth, double swell, Paint paint) {
   const auto height = [=](double x, double y) { return depth + swell * std::sin(5.0 * x) * std::cos(4.0 * y + 0.5); };
   return [=](const Vector& from, const Vector& along) -> std::optional<Hit> {
-    if (along[2] >= 0.0) return std::nullopt;
-    const auto off = [&](double way) {
-      const Vector p = plus(from, scaled(along, way));
-      return p[2] - height(p[0], p[1]);
-    };
-    double near = (depth + swell - from[2]) / along[2];
-    double far = (depth - swell - from[2]) / along[2];
-    if (near < 0.0) return std::nullopt;
-    for (int i = 0; i < 40; ++i) {
-      const double middle = 0.5 * (near + far);
-      (off(middle) > 0.0 ? near : far) = middle;
+    if (along[2] == 0.0) return std::nullopt;
+    double near = (depth - from[2]) / along[2];
+    Vector p{};
+    for (int i = 0; i < 60; ++i) {
+      p = plus(from, scaled(along, near));
+      const double next = (height(p[0], p[1]) - from[2]) / along[2];
+      const bool settled = std::abs(next - near) < 1e-12;
+      near = next;
+      if (settled) break;
     }
-    const Vector p = plus(from, scaled(along, near));
+    if (!(near > 0.0)) return std::nullopt;
     const auto albedo = paint(p[0], p[1]);
     if (!albedo) return std::nullopt;
     const double dx = 5.0 * swell * std::cos(5.0 * p[0]) * std::cos(4.0 * p[1] + 0.5);
@@ -97,44 +96,91 @@ struct Shot {
   int samples = 2;        ///< along each side of a pixel
 };
 
+/// Directions of a lens: exact at the pixels' corners, even between.
+class Looks {
+ public:
+  explicit Looks(const Lens& lens) : width_(lens.width) {
+    for (int y = 0; y <= lens.height; ++y) {
+      for (int x = 0; x <= lens.width; ++x) corners_.push_back(lens.look(x, y));
+    }
+  }
+
+  Vector along(double x, double y) const {
+    const auto column = static_cast<std::size_t>(x);
+    const auto row = static_cast<std::size_t>(y);
+    const double s = x - static_cast<double>(column);
+    const double t = y - static_cast<double>(row);
+    const auto first = row * static_cast<std::size_t>(width_ + 1) + column;
+    const auto below = first + static_cast<std::size_t>(width_ + 1);
+    Vector out{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      out[i] = (1 - t) * ((1 - s) * corners_[first][i] + s * corners_[first + 1][i]) +
+               t * ((1 - s) * corners_[below][i] + s * corners_[below + 1][i]);
+    }
+    return out;
+  }
+
+ private:
+  int width_;
+  std::vector<Vector> corners_;
+};
+
 /// A camera before a room, ready to photograph whatever the projector shows.
 class Photographer {
  public:
   Photographer(const std::vector<Thing>& things, const Lens& projector, const Lens& camera, const Shot& shot,
                std::uint32_t seed = 1)
-      : camera_(camera), shot_(shot), projector_width_(projector.width), projector_height_(projector.height) {
+      : camera_(camera), shot_(shot) {
     std::mt19937 dice(seed);
     std::normal_distribution<float> error(0.0F, static_cast<float>(shot.noise));
     for (float& one : noise_) one = error(dice);
     at_ = dice() % noise_.size();
-    const int n = shot.samples;
-    for (int y = 0; y < camera.height * n; ++y) {
-      for (int x = 0; x < camera.width * n; ++x) {
-        samples_.push_back(sample(things, projector, (x + 0.5) / n, (y + 0.5) / n));
-      }
+    for (std::size_t i = 0; i < curve_.size(); ++i) {
+      curve_[i] = static_cast<float>(255.0 * std::pow((static_cast<double>(i) + 0.5) / 65536.0, 1.0 / shot.gamma));
     }
+    const int n = shot.samples;
+    const Looks looks(camera);
+    for (int i = 0; i < camera.width * camera.height; ++i) {
+      first_.push_back(static_cast<std::uint32_t>(samples_.size()));
+      const auto at = [&](int k) {
+        return sample(things, projector,
+                      looks.along(i % camera.width + (k % n + 0.5) / n, i / camera.width + (k / n + 0.5) / n));
+      };
+      // One kind of paint, lit in all corners: its middle says it all. (Where n is even the middle is none of them.)
+      const Sample middle = at(n * n / 2);
+      bool even = n % 2 == 1 && middle.direct > 0.0F;
+      for (const int corner : {0, n - 1, n * n - n, n * n - 1}) {
+        if (!even) break;
+        const Sample other = at(corner);
+        even = other.ambient == middle.ambient && other.direct > 0.0F;
+      }
+      for (int k = 0; k < (even ? 1 : n * n); ++k) samples_.push_back(even ? middle : at(k));
+    }
+    first_.push_back(static_cast<std::uint32_t>(samples_.size()));
   }
 
-  /// `codes` as the projector gets them, whose light is code^gamma.
-  focalstage::CameraPicture picture(const std::vector<std::uint8_t>& codes, double gamma, std::string name) {
-    std::array<float, 256> light{};
-    for (std::size_t i = 0; i < light.size(); ++i) {
-      light[i] = static_cast<float>(std::pow(static_cast<double>(i) / 255.0, gamma));
-    }
+  /// A picture of which all rows (or all columns) are alike, as `codes` runs along the axis; light is code^gamma.
+  focalstage::CameraPicture picture(const std::vector<std::uint8_t>& codes, focalstage::PatternAxis axis, double gamma,
+                                    std::string name) {
+    std::vector<float> light;
+    for (const std::uint8_t code : codes) light.push_back(static_cast<float>(std::pow(code / 255.0, gamma)));
+    light.push_back(light.back());
+    const bool columns = axis == focalstage::PatternAxis::columns;
     focalstage::CameraPicture picture{std::move(name), camera_.width, camera_.height, {}};
-    const auto n = static_cast<std::size_t>(shot_.samples);
-    const auto row = static_cast<std::size_t>(camera_.width) * n;
-    for (std::size_t y = 0; y < static_cast<std::size_t>(camera_.height); ++y) {
-      for (std::size_t x = 0; x < static_cast<std::size_t>(camera_.width); ++x) {
-        float sum = 0.0F;
-        for (std::size_t k = 0; k < n * n; ++k) {
-          const Sample& s = samples_[(y * n + k / n) * row + x * n + k % n];
-          sum += s.ambient + (s.direct > 0.0F ? s.direct * lit(codes, light, s) : 0.0F);
-        }
-        const float whole = std::min(1.0F, sum / static_cast<float>(n * n));
-        const float code = 255.0F * std::pow(whole, static_cast<float>(1.0 / shot_.gamma)) + next_noise();
-        picture.gray.push_back(static_cast<std::uint8_t>(std::clamp(std::lround(code), 0L, 255L)));
+    picture.gray.reserve(first_.size() - 1);
+    for (std::size_t i = 0; i + 1 < first_.size(); ++i) {
+      float sum = 0.0F;
+      for (std::size_t k = first_[i]; k < first_[i + 1]; ++k) {
+        const Sample& s = samples_[k];
+        // Between pixels' middles the light passes over evenly: a pixel soft.
+        const float at = columns ? s.u : s.v;
+        const auto left = static_cast<std::size_t>(at);
+        const float lit = light[left] + (at - static_cast<float>(left)) * (light[left + 1] - light[left]);
+        sum += s.ambient + s.direct * lit;
       }
+      const float whole = std::min(1.0F, sum / static_cast<float>(first_[i + 1] - first_[i]));
+      const float code = curve_[static_cast<std::size_t>(whole * 65535.0F)] + next_noise();
+      picture.gray.push_back(static_cast<std::uint8_t>(std::clamp(code + 0.5F, 0.0F, 255.0F)));
     }
     return picture;
   }
@@ -147,20 +193,26 @@ class Photographer {
   }
 
   focalstage::CameraPicture photo(const focalstage::PatternSet& set, const focalstage::Pattern& pattern) {
-    return picture(focalstage::picture_of(set, pattern), set.gamma, focalstage::name_of(pattern));
+    const auto codes = focalstage::picture_of(set, pattern);
+    const auto width = static_cast<std::size_t>(set.width_px);
+    std::vector<std::uint8_t> line(codes.begin(), codes.begin() + set.width_px);
+    if (pattern.axis == focalstage::PatternAxis::rows) {
+      line.clear();
+      for (std::size_t i = 0; i < codes.size(); i += width) line.push_back(codes[i]);
+    }
+    return picture(line, pattern.axis, set.gamma, focalstage::name_of(pattern));
   }
 
  private:
   struct Sample {
-    float u = 0.0F;
+    float u = 0.0F;  // in pixels' middles
     float v = 0.0F;
     float direct = 0.0F;
     float ambient = 0.0F;
   };
 
-  Sample sample(const std::vector<Thing>& things, const Lens& projector, double x, double y) const {
+  Sample sample(const std::vector<Thing>& things, const Lens& projector, const Vector& along) const {
     Sample made;
-    const Vector along = camera_.look(x, y);
     const auto hit = first_hit(things, camera_.at, along);
     if (!hit) return made;
     made.ambient = static_cast<float>(shot_.exposure * shot_.ambient * hit->albedo);
@@ -174,27 +226,9 @@ class Photographer {
     const double distance = length(to_light);
     const double slant = std::abs(dot(hit->normal, to_light)) / distance;
     made.direct = static_cast<float>(shot_.exposure * hit->albedo * slant / (distance * distance));
-    made.u = static_cast<float>(pixel->x);
-    made.v = static_cast<float>(pixel->y);
+    made.u = static_cast<float>(std::clamp(pixel->x - 0.5, 0.0, projector.width - 1.0));
+    made.v = static_cast<float>(std::clamp(pixel->y - 0.5, 0.0, projector.height - 1.0));
     return made;
-  }
-
-  /// The projector's light at a place of its picture, a pixel soft.
-  float lit(const std::vector<std::uint8_t>& codes, const std::array<float, 256>& light, const Sample& s) const {
-    const float x = std::clamp(s.u - 0.5F, 0.0F, static_cast<float>(projector_width_ - 1));
-    const float y = std::clamp(s.v - 0.5F, 0.0F, static_cast<float>(projector_height_ - 1));
-    const auto left = static_cast<std::size_t>(x);
-    const auto top = static_cast<std::size_t>(y);
-    const std::size_t right = std::min(left + 1, static_cast<std::size_t>(projector_width_ - 1));
-    const std::size_t bottom = std::min(top + 1, static_cast<std::size_t>(projector_height_ - 1));
-    const float fx = x - static_cast<float>(left);
-    const float fy = y - static_cast<float>(top);
-    const auto at = [&](std::size_t column, std::size_t line) {
-      return light[codes[line * static_cast<std::size_t>(projector_width_) + column]];
-    };
-    const float above = at(left, top) + fx * (at(right, top) - at(left, top));
-    const float below = at(left, bottom) + fx * (at(right, bottom) - at(left, bottom));
-    return above + fy * (below - above);
   }
 
   float next_noise() {
@@ -204,9 +238,9 @@ class Photographer {
 
   Lens camera_;
   Shot shot_;
-  int projector_width_;
-  int projector_height_;
+  std::vector<std::uint32_t> first_;  // of the samples of each pixel, and one past the last
   std::vector<Sample> samples_;
+  std::vector<float> curve_ = std::vector<float>(65536);
   std::vector<float> noise_ = std::vector<float>(1'000'003);
   std::size_t at_ = 0;
 };
