@@ -1,5 +1,6 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
 
 #include "io/assets/gltf_check.h"
 
@@ -141,28 +142,35 @@ class AccessorChecker {
     return {};
   }
 
-  /// Finite, and within the bounds given: as far as floats written in decimals agree.
+  /// All finite, and the smallest and largest those given: as far as floats written in decimals agree.
   Status check_values(const tinygltf::Accessor& accessor) {
     if (accessor.bufferView < 0 && !accessor.sparse.isSparse) return {};
     const std::size_t components = component_count(accessor.type);
-    const auto beyond = [&](double value, const std::vector<double>& bounds, std::size_t k, double sign) {
-      return !bounds.empty() && sign * (value - bounds[k]) > 1e-6 * std::abs(bounds[k]);
-    };
-    bool outside = false;
+    std::array<double, 16> least{};
+    std::array<double, 16> most{};
     GltfElements elements(document_, accessor);
     for (std::size_t i = 0; i < accessor.count; ++i) {
       elements.next();
       for (std::size_t k = 0; k < components; ++k) {
         const double value = elements.stored(k);
         if (!std::isfinite(value)) return invalid_asset(where_, "element " + std::to_string(i) + " is not finite");
-        outside = outside || beyond(value, accessor.minValues, k, -1.0) || beyond(value, accessor.maxValues, k, 1.0);
+        least[k] = i == 0 ? value : std::min(least[k], value);
+        most[k] = i == 0 ? value : std::max(most[k], value);
       }
     }
-    if (outside) {
+    if (!agree(accessor.minValues, least) || !agree(accessor.maxValues, most)) {
       findings_.push_back(asset_finding(Severity::warning, "asset.bounds", where_,
-                                        "its values lie outside the min and max that the file gives them"));
+                                        "the min and max that the file gives are not those of its values"));
     }
     return {};
+  }
+
+  /// Where the file gives any.
+  static bool agree(const std::vector<double>& given, const std::array<double, 16>& found) {
+    for (std::size_t k = 0; k < given.size(); ++k) {
+      if (std::abs(given[k] - found[k]) > 1e-6 * std::max(std::abs(given[k]), std::abs(found[k]))) return false;
+    }
+    return true;
   }
 
   const GltfDocument& document_;
