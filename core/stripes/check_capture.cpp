@@ -133,6 +133,10 @@ Fault moved(const CaptureView& view, const std::string& from, const std::string&
                "fix all of them, and capture again");
 }
 
+bool has_moved(const PictureShift& shift) {
+  return shift.moved_px > most_moved_px + sure * shift.doubt_px || shift.unexplained > most_unexplained;
+}
+
 /// Where a pattern stands without its own inverse: the pair to blame, or both where two are.
 Status check_inverses(const CaptureView& view, const Lit& lit) {
   std::string names;
@@ -146,7 +150,7 @@ Status check_inverses(const CaptureView& view, const Lit& lit) {
         if (both_alike(upside_down(one->gray), other->gray, view, lit) > most_far_off) continue;
         return fault("capture.turned", one->name, "it is upside down", "turn it as the others are");
       }
-      if (white_again(view, lit).unexplained > most_unexplained) return moved(view, code.name, "far");
+      if (has_moved(white_again(view, lit))) return {};  // check_moved says from where on
       names += (names.empty() ? "" : ", ") + code.name + ", " + inverse.name;
       ++wrong;
     }
@@ -212,8 +216,7 @@ Status check_again(const CaptureView& view, const Lit& lit) {
     }
     return {};
   }
-  const bool is_moved = white.moved_px > most_moved_px + sure * white.doubt_px;
-  if (is_moved || std::abs(white.gain - 1.0) <= most_brighter) return {};
+  if (has_moved(white) || std::abs(white.gain - 1.0) <= most_brighter) return {};
   return fault("capture.light", view.white(true).name,
                "it is " + signed_text(100.0 * (white.gain - 1.0), 0) + " % brighter than " + view.white().name,
                "switch off automatic exposure and what flickers, and let the projector warm up");
@@ -243,8 +246,8 @@ Status check_capture(const PatternSet& set, const Capture& capture) {
   const Lit again = lit_by(view.white(true), view.black(true));
   if (Status good = check_exposure(again, view.white(true), view.black(true)); !good) return good;
   if (Status good = check_again(view, lit); !good) return good;
-  if (Status good = check_moved(view, lit, false); !good) return good;
   if (Status good = check_inverses(view, lit); !good) return good;
+  if (Status good = check_moved(view, lit, false); !good) return good;
   return check_moved(view, lit, true);
 }
 
