@@ -218,7 +218,7 @@ void Mcc1208Drive::halt_and_tell(Session& session, std::optional<Fault> why) {
   }
   state_.phase = DevicePhase::ready;
   state_.heard_s = monotonic_s();
-  if (why) state_.fault = std::move(why);
+  state_.fault = std::move(why);  // told to stop, it has no more to say of why it stopped by itself
 }
 
 DriveReport Mcc1208Drive::report() const { return stream_.report(monotonic_s()); }

@@ -245,7 +245,7 @@ class Room {
       // So it does where the host feeds the projector and did not come to it in time.
       if (cable_->queue.waiting() > 0) fed = now;
       const auto unfed = now - fed;
-      const bool starved = unfed > std::chrono::milliseconds(8) && unfed < std::chrono::milliseconds(200);
+      const bool starved = unfed > std::chrono::milliseconds(8) && unfed < std::chrono::milliseconds(80);
       if (!starved && (unseen < std::chrono::milliseconds(4) || unseen > std::chrono::milliseconds(200))) {
         double left_s = std::min(std::chrono::duration<double>(now - before).count(), 0.004);
         for (; left_s > 0.0; left_s -= 0.0005) {
@@ -278,20 +278,21 @@ class Room {
   std::jthread time_;
 };
 
-/// A player's hand.
-void play(DeviceRig& rig, double seconds_lit) {
+/// A player's hand, with light for so long by the devices' time, or until there is a doubt.
+void play(DeviceRig& rig, const Room& room, double seconds_lit) {
   std::vector<double> drive;
   for (int i = 0; i < 400; ++i) drive.push_back(amplitude_a * std::sin(2.0 * std::numbers::pi * i / 400));
   const std::vector<Picture> pictures{picture_of(0), picture_of(1), picture_of(2)};
   double next_s = monotonic_s() + 6 * show_period_s;
-  const int sweeps = rig.settle_sweeps() + static_cast<int>(seconds_lit / show_period_s);
-  for (int sweep = 0; sweep < sweeps && !rig.doubt(); ++sweep) {
+  std::optional<double> lit_s;
+  for (int sweep = 0; !rig.doubt() && (!lit_s || room.time_s() < *lit_s + seconds_lit); ++sweep) {
     if (sweep == 0) {
       rig.set_exposure(exposure_s, {});
       rig.announce_triggers(slots_s);
       for (const Side eye : both_sides) rig.set_drive(eye, drive, show_period_s / 400);
     }
     const bool lit = sweep >= rig.settle_sweeps();
+    if (lit && !lit_s) lit_s = room.time_s();
     rig.post_images(lit ? pictures : std::vector<Picture>{});
     rig.sync_edge(next_s);
     rig.shutter(Side::left, ShutterLevel::open, next_s + 0.0002);
@@ -325,21 +326,9 @@ void becomes_ready(DeviceRig& rig) {
   FAIL(describe(ready.fault()));
 }
 
-TEST_CASE("a LightCrafter leads: each exposure its own picture, power and shutter; a drive not seen is darkness") {
-  Room room;
-  DeviceRigSettings settings;
-  settings.following_sweeps = 900;  // of this machine's time: that of the devices goes slower where it is busy
-  DeviceRig rig(room.devices(), settings);
-  becomes_ready(rig);
-  play(rig, 4.0);
-  if (rig.doubt()) {
-    for (const RigPart& part : rig.parts()) {
-      if (part.state.fault) MESSAGE(part.id.driver, ": ", describe(*part.state.fault));
-    }
-    FAIL(describe(*rig.doubt()));
-  }
-  const auto seen = room.take_seen();
-  REQUIRE(seen.size() > 150);
+/// Each exposure is what was asked for at its place in the period; those from `dark_s` on may lack their shutter, which
+/// closes at once. How many there were.
+std::size_t hold_against(const std::vector<Seen>& seen, double dark_s) {
   double worst_d = 0.0;
   double worst_s = 0.0;
   int wrong = 0;
@@ -351,23 +340,46 @@ TEST_CASE("a LightCrafter leads: each exposure its own picture, power and shutte
     worst_s = std::max(worst_s, std::abs(*nearest - slot_s));
     worst_d = std::max(worst_d, std::abs(light.power_d - asked_d(*nearest + 0.5 * exposure_s)));
     wrong += light.picture != nearest - slots_s.begin() ? 1 : 0;
-    CHECK((of_left ? light.left : light.right) >= 0.999);
+    if (light.start_s < dark_s) CHECK((of_left ? light.left : light.right) >= 0.999);
     CHECK((of_left ? light.right : light.left) <= 0.001);
   }
   CHECK(wrong == 0);
   MESSAGE(seen.size(), " exposures: power within ", worst_d, " D, time within ", 1e6 * worst_s, " us");
   CHECK(worst_d <= 0.02);
   CHECK(worst_s <= 20e-6);
+  return seen.size();
+}
 
-  rig.dark(monotonic_s());
-  becomes_ready(rig);
+/// What light there was by now, once all of it has ended.
+std::vector<Seen> light_of(Room& room) {
   const double dark_s = room.time_s();
   while (room.time_s() < dark_s + 0.2) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  (void)room.take_seen();
+  return room.take_seen();
+}
+
+TEST_CASE("a LightCrafter leads: each exposure its own picture, power and shutter; a drive not seen is darkness") {
+  Room room;
+  DeviceRigSettings settings;
+  settings.following_sweeps = 720;  // of this machine's time: that of the devices goes slower where it is busy
+  DeviceRig rig(room.devices(), settings);
+  // A machine that is too busy makes it dark, rightly; then once more. What light there is must be right each time.
+  bool played = false;
+  for (int attempt = 0; attempt < 5 && !played; ++attempt) {
+    becomes_ready(rig);
+    play(rig, room, 2.5);
+    const auto doubt = rig.doubt();
+    const double dark_s = room.time_s() - (doubt ? 0.1 : 0.01);  // a doubt made it dark before it was heard of
+    rig.dark(monotonic_s());
+    played = hold_against(light_of(room), dark_s) > 300 && !doubt;
+    if (doubt) MESSAGE(describe(*doubt));
+  }
+  CHECK(played);
+
+  becomes_ready(rig);
   room.lens_wired = false;
-  play(rig, 1.0);
+  play(rig, room, 1.0);
   REQUIRE(rig.doubt());  // pictures were due and the drive was not in step
-  CHECK(room.take_seen().empty());
+  CHECK(light_of(room).empty());
 }
 
 }  // namespace
