@@ -1,5 +1,5 @@
 /* A projector that swallows what it is given, by a clock of its own. Options: width, height. The smallest plugin there
- * is: begin with a copy of it, and of example.h. */
+ * is: begin with a copy of it, and of ../example_helpers.h. */
 #define _POSIX_C_SOURCE 200809L
 
 #include <math.h>
@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../example_helpers.h"
 #include "../focalstage_projector.h"
-#include "example.h"
 
 enum { periods_ahead = 3, most_exposures = 1024 };
 

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../example_helpers.h"
 #include "../focalstage_lens_drive.h"
-#include "example.h"
 
 struct focalstage_drive_device {
   pthread_mutex_t mutex; /* held for some instructions only, so that every call may take it */

@@ -15,9 +15,9 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include "../example_helpers.h"
 #include "../focalstage_projector.h"
 #include "../wire_framing.h"
-#include "example.h"
 
 #define MS INT64_C(1000000)
 

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <time.h>
 
-#include "../focalstage_plugin.h"
+#include "focalstage_plugin.h"
 
 static inline int64_t now_ns(void) {
   struct timespec now;
