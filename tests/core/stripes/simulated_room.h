@@ -146,13 +146,14 @@ class Photographer {
         return sample(things, projector,
                       looks.along(i % camera.width + (k % n + 0.5) / n, i / camera.width + (k / n + 0.5) / n));
       };
-      // One kind of paint, lit in all corners: its middle says it all. (Where n is even the middle is none of them.)
+      // One kind of paint, lit in all corners or in none: its middle says it all. (Where n is even the middle is none
+      // of them.)
       const Sample middle = at(n * n / 2);
-      bool even = n % 2 == 1 && middle.direct > 0.0F;
+      bool even = n % 2 == 1;
       for (const int corner : {0, n - 1, n * n - n, n * n - 1}) {
         if (!even) break;
         const Sample other = at(corner);
-        even = other.ambient == middle.ambient && other.direct > 0.0F;
+        even = other.ambient == middle.ambient && (other.direct > 0.0F) == (middle.direct > 0.0F);
       }
       for (int k = 0; k < (even ? 1 : n * n); ++k) samples_.push_back(even ? middle : at(k));
     }
