@@ -39,7 +39,7 @@ Result<ScannedCapture> scan_capture(const fs::path& folder, const CaptureEntry& 
   return scanned;
 }
 
-Fault stopped() { return {"rig.stopped", "calibrate scan", "was stopped; nothing was written", ""}; }
+Fault stopped() { return {"calibrate.stopped", "calibrate scan", "was stopped; nothing was written", ""}; }
 
 Result<std::vector<ScannedCapture>> scan_all(const CalibrateOptions& options, const PatternSet& set,
                                              const ScanFile& file, const std::stop_token& stop) {
