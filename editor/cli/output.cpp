@@ -73,18 +73,28 @@ ExitStatus status_of(const std::vector<Finding>& findings) {
   return has_error(findings) ? ExitStatus::findings : ExitStatus::done;
 }
 
+namespace {
+
+/// Characters, not bytes, of UTF-8.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));
+}
+
+}  // namespace
+
 std::string table_text(const std::vector<Column>& columns, const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths;
   for (std::size_t c = 0; c < columns.size(); ++c) {
-    std::size_t width = columns[c].title.size();
-    for (const auto& row : rows) width = std::max(width, row[c].size());
+    std::size_t width = width_of(columns[c].title);
+    for (const auto& row : rows) width = std::max(width, width_of(row[c]));
     widths.push_back(width);
   }
   const auto line = [&](const auto& cell) {
     std::string text;
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const std::string& content = cell(c);
-      const std::string pad(widths[c] - content.size(), ' ');
+      const std::string pad(widths[c] - width_of(content), ' ');
       text += (c == 0 ? "" : "  ") + (columns[c].right ? pad + content : content + pad);
     }
     while (!text.empty() && text.back() == ' ') text.pop_back();
