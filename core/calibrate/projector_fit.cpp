@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/calibrate/least_squares.h"
+#include "core/calibrate/rigid_step.h"
 
 namespace focalstage {
 
@@ -21,13 +22,7 @@ Eigen::VectorXd scale_of(int unknowns, double focal_px) {
 
 ProjectorModel changed(const ProjectorModel& start, const Eigen::VectorXd& by) {
   ProjectorModel model = start;
-  const glm::dvec3 turn(by(0), by(1), by(2));
-  const double angle = glm::length(turn);
-  if (angle > 0.0) {
-    model.world_from_projector.rotation =
-        glm::normalize(start.world_from_projector.rotation * glm::angleAxis(angle, turn / angle));
-  }
-  model.world_from_projector.position_m += glm::dvec3(by(3), by(4), by(5));
+  model.world_from_projector = stepped(start.world_from_projector, by.head(6));
   if (by.size() > 6) model.focal_px *= std::exp(by(6));
   if (by.size() > 8) model.centre_px += glm::dvec2(by(7), by(8));
   return model;

@@ -11,6 +11,7 @@
 
 #include "core/calibrate/least_squares.h"
 #include "core/calibrate/projector_fit.h"
+#include "core/calibrate/rigid_step.h"
 
 namespace focalstage {
 
@@ -25,15 +26,6 @@ constexpr int most_steps = 40;
 constexpr double same_px = 1e-8;
 constexpr Eigen::Index poses_at = camera_lens + projector_lens;
 
-Rigid moved(const Rigid& start, const Eigen::Ref<const Eigen::VectorXd>& by) {
-  Rigid rigid = start;
-  const glm::dvec3 turn(by(0), by(1), by(2));
-  const double angle = glm::length(turn);
-  if (angle > 0.0) rigid.rotation = glm::normalize(start.rotation * glm::angleAxis(angle, turn / angle));
-  rigid.position_m += glm::dvec3(by(3), by(4), by(5));
-  return rigid;
-}
-
 ProjectorModel bent(const ProjectorModel& start, const Eigen::Ref<const Eigen::VectorXd>& by) {
   ProjectorModel lens = start;
   lens.focal_px += glm::dvec2(by(0), by(1));
@@ -45,11 +37,12 @@ ProjectorModel bent(const ProjectorModel& start, const Eigen::Ref<const Eigen::V
 RigState changed(const RigState& start, const Eigen::VectorXd& by) {
   RigState state{bent(start.camera, by.head(camera_lens)),
                  bent(start.projector, by.segment(camera_lens, projector_lens)), start.frame_from_board};
-  state.camera.world_from_projector = moved(start.camera.world_from_projector, by.segment(poses_at, pose));
-  state.projector.world_from_projector = moved(start.projector.world_from_projector, by.segment(poses_at + pose, pose));
+  state.camera.world_from_projector = stepped(start.camera.world_from_projector, by.segment(poses_at, pose));
+  state.projector.world_from_projector =
+      stepped(start.projector.world_from_projector, by.segment(poses_at + pose, pose));
   for (std::size_t i = 1; i < state.frame_from_board.size(); ++i) {
     const Eigen::Index at = poses_at + pose * static_cast<Eigen::Index>(i + 1);
-    state.frame_from_board[i] = moved(start.frame_from_board[i], by.segment(at, pose));
+    state.frame_from_board[i] = stepped(start.frame_from_board[i], by.segment(at, pose));
   }
   return state;
 }
@@ -239,7 +232,7 @@ void drop_stray(const RigState& state, std::vector<BoardView>& views) {
 
 std::optional<Rigid> board_by_camera(const ProjectorModel& camera, const Rigid& near, const BoardView& view) {
   const auto residuals = [&](const Eigen::VectorXd& by, Eigen::VectorXd& out) {
-    const Rigid frame_from_board = moved(near, by);
+    const Rigid frame_from_board = stepped(near, by);
     out.resize(2 * static_cast<Eigen::Index>(view.corners.size()));
     for (std::size_t i = 0; i < view.corners.size(); ++i) {
       const auto seen = pixel_of_world(camera, frame_from_board.point(view.corners[i].board_m));
@@ -251,7 +244,7 @@ std::optional<Rigid> board_by_camera(const ProjectorModel& camera, const Rigid& 
   };
   const auto solved = least_squares(residuals, Eigen::VectorXd::Zero(pose), Eigen::VectorXd::Ones(pose));
   if (!solved) return std::nullopt;
-  return moved(near, solved->unknowns);
+  return stepped(near, solved->unknowns);
 }
 
 }  // namespace focalstage

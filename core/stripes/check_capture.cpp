@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "core/base/number_words.h"
 #include "core/stripes/capture.h"
@@ -27,8 +26,8 @@ Fault fault(const char* code, const std::string& where, const std::string& messa
   return {code, where, message, remedy};
 }
 
-std::string size_text(const CameraPicture& picture) {
-  return std::to_string(picture.width_px) + " x " + std::to_string(picture.height_px);
+std::string size_text(const CameraPicture& p) {
+  return std::to_string(p.width_px) + " x " + std::to_string(p.height_px);
 }
 
 Status check_count(const std::vector<Pattern>& patterns, const Capture& capture) {
