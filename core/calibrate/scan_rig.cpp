@@ -211,13 +211,13 @@ Result<ScanRig> solve_scan_rig(const ProjectorModel& known, int camera_width_px,
   Views views = seen;
   const auto fit = first_fit(known, camera_width_px, camera_height_px, views);
   if (!fit) return fit.fault();
-  auto left_out = leave_each_out(*fit, views);
-  if (!left_out) return left_out.fault();
   if (fit->focal_share > weakest_focal) {
     return Fault{"scan.alike", "boards",
                  "they tell a focal length to " + fixed_text(100.0 * fit->focal_share, 0) + " % alone",
                  "let the board lean by 20 to 40 degrees, each time another way, and fill the picture"};
   }
+  auto left_out = leave_each_out(*fit, views);
+  if (!left_out) return left_out.fault();
   ScanRig rig{fit->state.camera, fit->state.projector, fit->state.frame_from_board, {}, {}};
   rig.report = report_of(residuals_of(rig.projector, fit->state, views, &SeenCorner::projector_px, *left_out),
                          known.width_px, known.height_px);
