@@ -145,7 +145,11 @@ class LightCrafter final : public ProjectorDevice {
       commands = commands_;
       if (!commands) return state_.phase == DevicePhase::off;
     }
-    return commands->dark(dark_within_s - 0.01);
+    const bool told = commands->dark(dark_within_s - 0.01);
+    // What it went dark for by itself is over; what is still wrong is found by the next look.
+    const std::lock_guard lock(mutex_);
+    if (told && state_.phase == DevicePhase::ready) state_.fault.reset();
+    return told;
   }
 
   ProjectorReport report() const override {

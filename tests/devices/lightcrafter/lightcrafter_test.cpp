@@ -282,6 +282,9 @@ TEST_CASE("what goes wrong by itself is named, and dark") {
   CHECK(within(1.0, [&] { return rig.projector->state().fault.has_value(); }));
   CHECK(rig.projector->state().fault->code == "projector.stopped");
   CHECK(rig.projector->state().phase == DevicePhase::ready);
+  CHECK(rig.projector->dark());
+  CHECK_FALSE(rig.projector->state().fault);
+  REQUIRE(rig.projector->start().ok());
 
   Rig broken;
   broken.run();
@@ -291,6 +294,8 @@ TEST_CASE("what goes wrong by itself is named, and dark") {
   CHECK(within(1.0, [&] { return broken.projector->state().fault.has_value(); }));
   CHECK(broken.projector->state().fault->code == "projector.hardware");
   CHECK(within(1.0, [&] { return !broken.board.running(); }));
+  CHECK(broken.projector->dark());
+  CHECK(within(1.0, [&] { return broken.projector->state().fault.has_value(); }));  // it still is
 
   Rig unplugged;
   unplugged.run();
