@@ -153,7 +153,8 @@ SeenPoints MarkerFinder::State::points_of(std::size_t board, const cv::Mat& imag
     const int column = corner_ids[i] % (it.squares_x - 1) + 1;
     const int row = corner_ids[i] / (it.squares_x - 1) + 1;
     seen.body_m.emplace_back(column * it.square_m, (it.squares_y - row) * it.square_m, 0.0);
-    seen.image_px.emplace_back(at[i].x, at[i].y);
+    // Markers are counted from the middle of the first pixel, these (OpenCV 4.6) from its corner.
+    seen.image_px.emplace_back(at[i].x - 0.5, at[i].y - 0.5);
   }
   return seen;
 }

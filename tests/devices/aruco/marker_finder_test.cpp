@@ -125,7 +125,7 @@ TEST_CASE("a body of several markers: any of them will do, all of them do better
   }
 }
 
-TEST_CASE("a ChArUco board: its corners tell it to a millimetre and a quarter of a degree") {
+TEST_CASE("a ChArUco board: its corners tell it to a third of a millimetre and a quarter of a degree") {
   ArucoSettings settings;
   settings.camera = camera();
   settings.boards = {{4, "Board", 5, 7, 0.03, 0.022}};
@@ -138,7 +138,7 @@ TEST_CASE("a ChArUco board: its corners tell it to a millimetre and a quarter of
     const double off_m = glm::distance(bodies[0].tracker_from_body.position_m, pose.position_m);
     const double off_deg = degrees_between(bodies[0].tracker_from_body.rotation, pose.rotation);
     std::printf("board: %.2f mm, %.2f degrees\n", 1e3 * off_m, off_deg);
-    CHECK(off_m < 1e-3);
+    CHECK(off_m < 0.35e-3);  // half a pixel would be 0.6 mm
     CHECK(off_deg < 0.25);
   }
 }
