@@ -1,7 +1,7 @@
 # The architecture, as a table: every room and the rooms it may see. Top to bottom, nobody sees what stands below.
 
 # core: the model and the mathematics; no file, socket, window, device or clock
-focalstage_room(core/base       LIBS glm::glm)
+focalstage_room(core/base       LIBS glm::glm                      PRIVATE_LIBS Boost::headers)
 focalstage_room(core/mesh       USES core/base)
 focalstage_room(core/scene      USES core/base core/mesh)
 focalstage_room(core/process    USES core/scene core/mesh core/base          PRIVATE_LIBS OpenMeshCore OpenMeshTools)
@@ -14,10 +14,10 @@ focalstage_room(core/sensitivity USES core/reference core/optics core/stage core
 focalstage_room(core/schedule   USES core/optics core/scene)
 focalstage_room(core/percept    USES core/retina core/schedule core/compile core/optics core/stage PRIVATE_LIBS TBB::tbb)
 focalstage_room(core/tracking   USES core/scene core/base)
-focalstage_room(core/study      USES core/base                     PRIVATE_LIBS Boost::headers)
+focalstage_room(core/study      USES core/base)
 focalstage_room(core/stripes    USES core/base                     PRIVATE_LIBS Eigen3::Eigen)
 focalstage_room(core/calibrate  USES core/stripes core/optics core/stage core/scene core/base
-                                PRIVATE_LIBS opencv::aruco opencv::calib3d opencv::core Eigen3::Eigen Boost::headers)
+                                PRIVATE_LIBS opencv::aruco opencv::calib3d opencv::core Eigen3::Eigen)
 focalstage_room(core/check      USES core/process core/percept core/compile core/schedule core/optics core/scene)
 
 # io: everything that becomes bytes

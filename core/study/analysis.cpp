@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/study/distributions.h"
+#include "core/base/distributions.h"
 
 namespace focalstage {
 namespace {

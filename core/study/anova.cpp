@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/study/distributions.h"
+#include "core/base/distributions.h"
 
 namespace focalstage {
 namespace {

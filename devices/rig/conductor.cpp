@@ -9,11 +9,6 @@ namespace focalstage {
 
 namespace {
 
-Fault late_pictures() {
-  return {"rig.missed-light", "projector", "a sweep's pictures were not there when it began",
-          "see that nothing else keeps this machine busy, then say go"};
-}
-
 Fault lost_trigger(std::uint64_t missed) {
   return {"rig.missed-light", "projector",
           missed > 0 ? "it had no picture for " + std::to_string(missed) + " triggers"
@@ -69,16 +64,7 @@ Status Conductor::begin_light(double now_s) {
   stage_ = Stage::lit;
   // The dark period begins at the coming edge; what was to be shown before the one after it is too late.
   const double period_s = score_->drive.period_s;
-  return drop_past(now_s + 1.5 * period_s);
-}
-
-/// Sweeps in the dark may go by while nothing is lit; light may not.
-Status Conductor::drop_past(double before_s) {
-  while (!sweeps_.empty() && sweeps_.front().start_s < before_s) {
-    if (!sweeps_.front().pictures.empty()) return late_pictures();
-    sweeps_.pop_front();
-  }
-  return {};
+  return drop_past(sweeps_, now_s + 1.5 * period_s);
 }
 
 Status Conductor::feed() {
@@ -98,7 +84,7 @@ Status Conductor::feed() {
 
 Status Conductor::step(double now_s) {
   if (stage_ != Stage::lit) {
-    if (Status dropped = drop_past(now_s); !dropped) return dropped;
+    if (Status dropped = drop_past(sweeps_, now_s); !dropped) return dropped;
   }
   if (!sweeps_.empty()) {
     if (Status followed = follow_score(); !followed) return followed;

@@ -29,7 +29,6 @@ class Conductor final : public Leader {
 
   Status follow_score();
   void leave_light();
-  Status drop_past(double before_s);
   Status prepare();
   Status begin_light(double now_s);
   Status feed();

@@ -52,4 +52,17 @@ std::optional<std::vector<Picture>> period_pictures(const std::vector<TableTrigg
   return pictures;
 }
 
+Fault late_pictures() {
+  return {"rig.missed-light", "projector", "a sweep's pictures were not there when it began",
+          "see that nothing else keeps this machine busy, then say go"};
+}
+
+Status drop_past(std::deque<HandedSweep>& sweeps, double before_s) {
+  while (!sweeps.empty() && sweeps.front().start_s < before_s) {
+    if (!sweeps.front().pictures.empty()) return late_pictures();
+    sweeps.pop_front();
+  }
+  return {};
+}
+
 }  // namespace focalstage

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/result.h"
 #include "devices/rig/score.h"
 
 namespace focalstage {
@@ -22,5 +23,12 @@ std::vector<TableTrigger> table_triggers(const Score& score);
 /// where their sweep is dark; empty if all are. None while a sweep that is needed has not been handed over.
 std::optional<std::vector<Picture>> period_pictures(const std::vector<TableTrigger>& triggers,
                                                     const std::deque<HandedSweep>& sweeps);
+
+/// Pictures were not there when their sweep began: a doubt.
+Fault late_pictures();
+
+/// Drops what was to begin before `before_s`. Sweeps in the dark may go by while nothing is lit; of light that may not,
+/// the fault is `late_pictures`.
+Status drop_past(std::deque<HandedSweep>& sweeps, double before_s);
 
 }  // namespace focalstage

@@ -23,11 +23,6 @@ constexpr double most_unseen_s = 0.8;
 // That, and a drive's crystal.
 constexpr double most_correction = 3e-3;
 
-Fault late_pictures() {
-  return {"rig.missed-light", "projector", "a sweep's pictures were not there when it began",
-          "see that nothing else keeps this machine busy, then say go"};
-}
-
 Fault out_of_step(const BeatFollower& follower) {
   const std::string by =
       follower.late_s() ? std::to_string(std::abs(1e6 * *follower.late_s())) + " us" : std::string("an unknown time");
@@ -126,16 +121,7 @@ Status ProjectorLed::begin_light(double now_s) {
   if (Status armed = devices_.board->arm(); !armed) return armed;
   stage_ = Stage::lit;
   fed_from_ = devices_.projector->report().periods + static_cast<std::uint64_t>(periods_to_light);
-  return drop_past(now_s + periods_to_light * period_s_);
-}
-
-/// Sweeps in the dark may go by while nothing is lit; light may not.
-Status ProjectorLed::drop_past(double before_s) {
-  while (!sweeps_.empty() && sweeps_.front().start_s < before_s) {
-    if (!sweeps_.front().pictures.empty()) return late_pictures();
-    sweeps_.pop_front();
-  }
-  return {};
+  return drop_past(sweeps_, now_s + periods_to_light * period_s_);
 }
 
 Status ProjectorLed::feed() {
@@ -158,7 +144,7 @@ Status ProjectorLed::feed() {
 
 Status ProjectorLed::step(double now_s) {
   if (stage_ != Stage::lit) {
-    if (Status dropped = drop_past(now_s); !dropped) return dropped;
+    if (Status dropped = drop_past(sweeps_, now_s); !dropped) return dropped;
   }
   if (!sweeps_.empty()) {
     if (Status followed = follow_score(now_s); !followed) return followed;

@@ -32,7 +32,6 @@ class ProjectorLed final : public Leader {
   Status prepare(double now_s);
   Status follow(double now_s);
   Status begin_light(double now_s);
-  Status drop_past(double before_s);
   Status feed();
 
   RigDevices devices_;

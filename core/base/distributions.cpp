@@ -1,4 +1,4 @@
-#include "core/study/distributions.h"
+#include "core/base/distributions.h"
 
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>

@@ -1,4 +1,4 @@
-#include "core/study/distributions.h"
+#include "core/base/distributions.h"
 
 #include <cmath>
 #include <initializer_list>
