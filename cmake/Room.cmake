@@ -57,7 +57,7 @@ function(focalstage_room_tests room)
     set(run_by umockdev-wrapper)
   endif()
   add_test(NAME ${name} COMMAND ${run_by} $<TARGET_FILE:test_${name}>)
-  set_tests_properties(${name} PROPERTIES LABELS "unit;${TESTS_LABELS}" TIMEOUT 300)
+  set_tests_properties(${name} PROPERTIES LABELS "unit;${TESTS_LABELS}" TIMEOUT 600)
   if(TESTS_MOCK_USB)  # umockdev's library is loaded before the sanitizer's, and glib keeps what it has
     set_tests_properties(${name} PROPERTIES ENVIRONMENT "ASAN_OPTIONS=verify_asan_link_order=0:detect_leaks=0")
   endif()

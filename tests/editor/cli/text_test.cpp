@@ -53,7 +53,7 @@ TEST_CASE("a table is as wide as its widest cells, numbers flush right") {
         "right   +0.500\n");
   CHECK(table_text(columns, {}) == "eye  power D\n");
   // Characters count, not their bytes.
-  CHECK(table_text(columns, {{"左", "1 °"}, {"ab", "1 mm"}}) == "eye  power D\n左        1 °\nab       1 mm\n");
+  CHECK(table_text(columns, {{"左", "1 °"}, {"ab", "1 mm"}}) == "eye  power D\n左        1 °\nab      1 mm\n");
 }
 
 TEST_CASE("durations read as a clock does") {
