@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <string>
@@ -76,6 +77,21 @@ TEST_CASE("edges come at the cycles that were said, in any order, and a run ends
     CHECK(chip.edges[i] >= wanted[i]);
     CHECK(chip.edges[i] <= wanted[i] + 4);
   }
+}
+
+TEST_CASE("a chip that falls asleep in the cycle at which it is to stop stops there") {
+  Chip chip(FOCALSTAGE_FIRMWARE_ELF);
+  Cycle most = 0;
+  for (Cycle at = 20 * ms; at < 24 * ms; ++at) {  // each cycle, so also those; Timer 0 wakes it every 1.024 ms
+    chip.run_until(at);
+    most = std::max(most, chip.now() - at);
+  }
+  chip.reset();
+  for (Cycle at = 24 * ms; at < 28 * ms; ++at) {
+    chip.run_until(at);
+    most = std::max(most, chip.now() - at);
+  }
+  CHECK(most <= 4);
 }
 
 TEST_CASE("the same edges and bytes give the same pins, however the run is cut") {

@@ -77,17 +77,20 @@ void Chip::listen() {
 
 Cycle Chip::now() const { return avr_->cycle; }
 
-// A sleeping chip goes on to the next thing that is due: this is one.
-std::uint64_t Chip::halt(avr_t*, std::uint64_t, void*) { return 0; }
+// A sleeping chip goes on to the next thing that is due: this is one, and stays it until the chip has stopped. A chip
+// that falls asleep in the very cycle would go on to what comes after, and be ahead of the world.
+std::uint64_t Chip::halt(avr_t*, std::uint64_t when, void*) { return when + 1; }
 
 void Chip::run_until(Cycle at) {
   if (avr_->cycle >= at) return;
+  halt_at_ = at;
   avr_cycle_timer_register(avr_, at - avr_->cycle, halt, this);
   while (avr_->cycle < at) {
     mend_timing();
     const int state = avr_run(avr_);
     if (state == cpu_Done || state == cpu_Crashed) throw std::runtime_error("the chip stopped");
   }
+  avr_cycle_timer_cancel(avr_, halt, this);
 }
 
 // simavr 1.6 (to 1.8 at least) counts a parity bit into every frame, also where none is set: 11 bits of time instead of
@@ -108,6 +111,7 @@ void Chip::was_reset(avr_t* avr) {
   const auto due = [&](Cycle at, avr_cycle_timer_t what) {
     avr_cycle_timer_register(avr, at > avr->cycle ? at - avr->cycle : 1, what, &chip);
   };
+  due(chip.halt_at_, halt);
   if (chip.byte_is_due_) due(avr->cycle + byte_cycles, next_byte);
   if (chip.period_cycles_ > 0.0) due(static_cast<Cycle>(std::llround(chip.next_edge_)), next_edge);
   if (!chip.single_edges_.empty()) due(*chip.single_edges_.begin(), single_edge);

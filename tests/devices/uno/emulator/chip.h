@@ -102,6 +102,7 @@ class Chip {
   avr_uart_t* uart_ = nullptr;
   avr_watchdog_t* watchdog_ = nullptr;
   void (*own_reset_)(avr_t*) = nullptr;  ///< simavr's
+  Cycle halt_at_ = 0;
   double period_cycles_ = 0.0;
   double next_edge_ = 0.0;
   std::multiset<Cycle> single_edges_;
