@@ -9,6 +9,9 @@ namespace focalstage {
 
 namespace {
 
+// A board that still counted on the edges of an earlier run would have given them up by then.
+constexpr double earlier_edges_s = 0.05;
+
 Fault lost_trigger(std::uint64_t missed) {
   return {"rig.missed-light", "projector",
           missed > 0 ? "it had no picture for " + std::to_string(missed) + " triggers"
@@ -19,7 +22,7 @@ Fault lost_trigger(std::uint64_t missed) {
 }  // namespace
 
 /// Takes up the score of the sweep that is next, once all of the one before it was shown.
-Status Conductor::follow_score() {
+Status Conductor::follow_score(double now_s) {
   const std::shared_ptr<const Score>& wanted = sweeps_.front().score;
   if (score_ && *wanted == *score_) return {};
   if (stage_ == Stage::lit) {
@@ -29,6 +32,7 @@ Status Conductor::follow_score() {
   }
   if (stage_ == Stage::idle) {
     if (Status started = devices_.lens->start(wanted->drive); !started) return started;
+    driven_s_ = now_s;
   } else if (wanted->drive != score_->drive) {
     if (auto refilled = devices_.lens->refill(wanted->drive); !refilled) return refilled.fault();
   }
@@ -46,7 +50,8 @@ void Conductor::leave_light() {
 /// Tables travel while everything is dark.
 Status Conductor::prepare() {
   triggers_ = table_triggers(*score_);
-  if (triggers_.empty() || !devices_.board->report().period_s) return {};
+  const BoardReport board = devices_.board->report();
+  if (triggers_.empty() || !board.period_s || board.told_s < driven_s_ + earlier_edges_s) return {};
   const double latency_s = devices_.projector->abilities().latency_s;
   if (Status armed = devices_.projector->arm(exposures_of(*score_, triggers_, latency_s)); !armed) return armed;
   if (Status loaded = devices_.board->load(board_table(*score_, triggers_, settings_.pulse_s)); !loaded) return loaded;
@@ -87,7 +92,7 @@ Status Conductor::step(double now_s) {
     if (Status dropped = drop_past(sweeps_, now_s); !dropped) return dropped;
   }
   if (!sweeps_.empty()) {
-    if (Status followed = follow_score(); !followed) return followed;
+    if (Status followed = follow_score(now_s); !followed) return followed;
   }
   if (stage_ == Stage::driving) {
     if (Status prepared = prepare(); !prepared) return prepared;

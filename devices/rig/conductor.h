@@ -27,7 +27,7 @@ class Conductor final : public Leader {
  private:
   enum class Stage { idle, driving, prepared, lit };
 
-  Status follow_score();
+  Status follow_score(double now_s);
   void leave_light();
   Status prepare();
   Status begin_light(double now_s);
@@ -37,6 +37,7 @@ class Conductor final : public Leader {
   DeviceRigSettings settings_;
   Stage stage_ = Stage::idle;
   std::shared_ptr<const Score> score_;  ///< that the devices play
+  double driven_s_ = 0.0;               ///< when the lens drive was started
   std::vector<TableTrigger> triggers_;
   TriggerWatch watch_;
   std::deque<HandedSweep> sweeps_;              ///< not yet posted

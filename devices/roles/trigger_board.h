@@ -40,6 +40,7 @@ struct BoardReport {
   bool armed = false;
   std::optional<double> period_s;  ///< as measured by the board's own clock; none without sync
   std::uint64_t edges = 0;         ///< seen since it was opened
+  double told_s = 0.0;             ///< when these two were asked, on the monotonic clock
   std::uint64_t bad_lines = 0;     ///< either way
   std::optional<LensEdge> lens;    ///< none before the first, and from a board that has no input for it
 };

@@ -59,7 +59,7 @@ class UnoBoard final : public TriggerBoard {
   focalstage::Status say_all(Dialogue& dialogue, const Job& job);
   focalstage::Status beat(Dialogue& dialogue);
   focalstage::Status take_unasked(Dialogue& dialogue);
-  void take_status(const Dialogue& dialogue, const StatusLine& status);
+  void take_status(const Dialogue& dialogue, const StatusLine& status, double asked_s);
   focalstage::Status ask_for_lens_edge(Dialogue& dialogue);
   focalstage::Status done(Dialogue& dialogue, const Job& job);
   void went_dark(unsigned reason);

@@ -173,10 +173,11 @@ focalstage::Status UnoBoard::done(Dialogue& dialogue, const Job& job) {
 }
 
 focalstage::Status UnoBoard::beat(Dialogue& dialogue) {
+  const double asked_s = monotonic_s();
   const Result<Reply> reply = answer_to(dialogue, "STAT", silent_at_s(dialogue));
   if (!reply) return reply.fault().code == "uno.woken" ? focalstage::Status{} : reply.fault();
   next_beat_s_ = monotonic_s() + beat_s;
-  if (const auto status = decode_status(reply->words)) take_status(dialogue, *status);
+  if (const auto status = decode_status(reply->words)) take_status(dialogue, *status, asked_s);
   return {};
 }
 
@@ -204,9 +205,10 @@ focalstage::Status UnoBoard::take_unasked(Dialogue& dialogue) {
   return {};
 }
 
-void UnoBoard::take_status(const Dialogue& dialogue, const StatusLine& status) {
+void UnoBoard::take_status(const Dialogue& dialogue, const StatusLine& status, double asked_s) {
   {
     const std::lock_guard lock(mutex_);
+    report_.told_s = asked_s;
     report_.period_s.reset();
     if (status.period_s > 0.0) report_.period_s = status.period_s;
     // Both wrap.

@@ -90,6 +90,24 @@ TEST_CASE("current first, then tables, then triggers, then each sweep's pictures
   CHECK(stand.hands.report.missed == 0);
 }
 
+TEST_CASE("a beat that the board told of before the lens drive started is none to begin light by") {
+  Stand stand;
+  stand.run(1.95);
+  REQUIRE(!stand.fault);
+  const RigDevices devices = test::devices_of(stand.hands);
+  CHECK(devices.board->dark());
+  CHECK(devices.projector->dark());
+  CHECK(devices.lens->stop());
+  stand.conductor.forget();
+  stand.settle = 30;
+  stand.next_s = stand.hands.now_s;
+  const std::size_t shown = lit_codes(stand.hands).size();
+  stand.run(1.0);
+  if (stand.fault) FAIL(stand.fault->message);
+  CHECK(stand.hands.lens_starts == 2);
+  CHECK(lit_codes(stand.hands).size() > shown + 60);
+}
+
 TEST_CASE("a trigger that comes to nothing is found within three periods") {
   Stand stand;
   stand.run(2.0);

@@ -20,6 +20,7 @@ struct Stagehands {
     int code = 0;  ///< the picture's first byte; 0 where it was dark
   };
   static constexpr double period_s = 1.0 / 60.0;
+  static constexpr double told_each_s = 0.1;
 
   std::recursive_mutex mutex;
   double now_s = 0.0;
@@ -31,6 +32,7 @@ struct Stagehands {
   std::optional<std::uint64_t> lose_trigger;  ///< the one after this many
   bool lens_on = false;
   bool board_armed = false;
+  BoardReport board_told;  ///< as a host asks for it: every so often
   bool projector_on = false;
   Pacing pacing = Pacing::triggered;
 
@@ -55,8 +57,15 @@ struct Stagehands {
     }
   }
 
+  bool has_beat() const { return lens_on && edges > 16; }
+
  private:
   void tick() {
+    if (now_s >= board_told.told_s + told_each_s) {
+      board_told.told_s = now_s;
+      board_told.edges = edges;
+      board_told.period_s = has_beat() ? std::optional(period_s) : std::nullopt;
+    }
     if (lens_on && now_s >= first_edge_s + static_cast<double>(edges) * period_s) {
       const double edge_s = first_edge_s + static_cast<double>(edges++) * period_s;
       if (board_armed && table) {
@@ -152,6 +161,7 @@ class FakeBoard final : public TriggerBoard {
   }
   Status arm() override {
     const std::lock_guard lock(all_.mutex);
+    if (!all_.has_beat()) return Fault{"board.unsynced", "here", "there is no sync edge", ""};
     all_.board_armed = true;
     return {};
   }
@@ -164,10 +174,8 @@ class FakeBoard final : public TriggerBoard {
   }
   BoardReport report() const override {
     const std::lock_guard lock(all_.mutex);
-    BoardReport report;
+    BoardReport report = all_.board_told;
     report.armed = all_.board_armed;
-    if (all_.lens_on && all_.edges > 16) report.period_s = Stagehands::period_s;
-    report.edges = all_.edges;
     return report;
   }
 
