@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """Pushing under bad luck: damaged shows, killed clients, a killed rig, a second rig on the same port."""
 
-import hashlib
 import json
 import os
 import random
@@ -159,9 +158,9 @@ def test_full_disk_in_a_push():
         if mounted.returncode != 0:
             return "not run: needs root to mount a small tmpfs"
         try:
-            # So slow that a push is still under way long after its first chunk, however busy this machine is.
+            # So slow that a push is still under way many seconds after its first chunk, however busy this machine is.
             slow = at / "slow.json"
-            slow.write_text(json.dumps({"focalstage_rig": 1, "network": {"push_bytes_per_s": 1e6}}))
+            slow.write_text(json.dumps({"focalstage_rig": 1, "network": {"push_bytes_per_s": 3e5}}))
             with rig(at, "--config", str(slow)) as address:
                 small = compiled(at, address, "small", small_project(frames=2))
                 show = compiled(at, address, project=big_show(frames=40))
@@ -187,21 +186,16 @@ def test_full_disk_in_a_push():
 
 def push_while_disk_fills(show, address, disk, fill):
     """Stops a push after some chunks, takes all room that is left, lets it go on: what it says then."""
-    for _ in range(10):
-        process = subprocess.Popen([FOCALSTAGE, "push", str(show), "--to", address], stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.PIPE, text=True)
-        while process.poll() is None and not a_chunk_came(disk):
-            pass
-        process.send_signal(signal.SIGSTOP)
-        fill_up(disk, fill, 0)
-        process.send_signal(signal.SIGCONT)
-        _, err = process.communicate(timeout=60)
-        if process.returncode == ENVIRONMENT:
-            return err
-        fill.unlink()  # it was too quick: once more from the start
-        for done in (disk / "shows").glob(f"{hashlib.sha256(show.read_bytes()).hexdigest()}*"):
-            done.unlink()
-    raise AssertionError("no push was still under way when the disk filled")
+    process = subprocess.Popen([FOCALSTAGE, "push", str(show), "--to", address], stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, text=True)
+    while process.poll() is None and not a_chunk_came(disk):
+        time.sleep(0.005)
+    process.send_signal(signal.SIGSTOP)
+    fill_up(disk, fill, 0)
+    process.send_signal(signal.SIGCONT)
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == ENVIRONMENT, (process.returncode, out, err)
+    return err
 
 
 def a_chunk_came(disk):
