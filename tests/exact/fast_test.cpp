@@ -40,7 +40,9 @@ bool about_equal(std::uint64_t fast, std::uint64_t reference) {
   return gap <= 20 + reference / 500;
 }
 
-void check_measures(const FrameMeasure& fast, const FrameMeasure& reference) {
+/// `same_sights`: no ray along an edge hit another thing in the one than in the other. One that does may carry a worst
+/// value; counts bear it.
+void check_measures(const FrameMeasure& fast, const FrameMeasure& reference, bool same_sights) {
   CHECK(about_equal(fast.lit_pixels, reference.lit_pixels));
   CHECK(about_equal(fast.clipped_pixels, reference.clipped_pixels));
   CHECK(about_equal(fast.surface_pixels, reference.surface_pixels));
@@ -51,6 +53,7 @@ void check_measures(const FrameMeasure& fast, const FrameMeasure& reference) {
     CHECK(fast.objects[i].index == reference.objects[i].index);
     CHECK(about_equal(fast.objects[i].samples, reference.objects[i].samples));
     CHECK(about_equal(fast.objects[i].beyond, reference.objects[i].beyond));
+    if (!same_sights) continue;
     CHECK(fast.objects[i].worst_below_d == doctest::Approx(reference.objects[i].worst_below_d).epsilon(0.02));
     CHECK(fast.objects[i].worst_above_d == doctest::Approx(reference.objects[i].worst_above_d).epsilon(0.02));
   }
@@ -65,8 +68,9 @@ Difference compared(const RandomScene& scene) {
     const auto reference = compile_reference(stage, scene.settings);
     REQUIRE(fast);
     REQUIRE(reference);
-    all += difference(fast->images.codes, reference->images.codes);
-    check_measures(fast->measure, reference->measure);
+    const Difference here = difference(fast->images.codes, reference->images.codes);
+    check_measures(fast->measure, reference->measure, here.off == 0);
+    all += here;
   }
   return all;
 }
