@@ -1,28 +1,28 @@
 #include <algorithm>
-#include <cmath>
-
-#include <glm/common.hpp>
 
 #include "core/check/candidates.h"
 #include "core/check/rules.h"
 #include "core/check/words.h"
 #include "core/scene/process_codec.h"
+#include "core/stage/world_bounds.h"
 
 namespace focalstage {
 namespace {
 
-const MeshSource& source_of(const Project& project, const MeshState& thing) {
-  return thing.list == "surfaces" ? project.surfaces[thing.index].mesh : project.objects[thing.index].mesh;
+/// `visit` with the surface or object itself.
+template <class Visit>
+auto with_thing(const Project& project, const MeshState& thing, Visit&& visit) {
+  return thing.list == "surfaces" ? visit(project.surfaces[thing.index]) : visit(project.objects[thing.index]);
 }
 
-const std::string& name_of(const Project& project, const MeshState& thing) {
-  return thing.list == "surfaces" ? project.surfaces[thing.index].name : project.objects[thing.index].name;
+std::string name_of(const Project& project, const MeshState& state) {
+  return with_thing(project, state, [](const auto& thing) { return thing.name; });
 }
 
 /// One more step after those there are.
-Edits step_edit(const Project& project, const MeshState& thing, const ProcessKind& step) {
-  const std::size_t next = source_of(project, thing).process.size();
-  return {set_edit(thing.list, name_of(project, thing), "mesh/process/" + std::to_string(next),
+Edits step_edit(const Project& project, const MeshState& state, const ProcessKind& step) {
+  const auto next = with_thing(project, state, [](const auto& thing) { return thing.mesh.process.size(); });
+  return {set_edit(state.list, name_of(project, state), "mesh/process/" + std::to_string(next),
                    Codec<ProcessStep>::write({step, {}}))};
 }
 
@@ -39,28 +39,12 @@ void add_flaw(std::vector<MeshFlaw>& flaws, const MeshFlaw& flaw) {
   same->count = sum;
 }
 
-/// The box around the thing's triangles in the room.
-glm::dvec3 size_m(const std::vector<Drawable>& drawables) {
-  glm::dvec3 low_m(INFINITY);
-  glm::dvec3 high_m(-INFINITY);
-  for (const Drawable& drawable : drawables) {
-    for (const glm::uvec3& triangle : drawable.mesh->triangles) {
-      for (int k = 0; k < 3; ++k) {
-        const glm::dvec3 at_m(drawable.world_from_mesh * glm::dvec4(drawable.mesh->positions_m[triangle[k]], 1.0));
-        low_m = glm::min(low_m, at_m);
-        high_m = glm::max(high_m, at_m);
-      }
-    }
-  }
-  return drawables.empty() ? glm::dvec3(0.0) : high_m - low_m;
-}
-
 template <class Things, class Staged>
 void add_things(const std::string& list, const Things& things, const std::vector<Staged>& staged,
                 std::vector<MeshState>& all) {
   for (const Staged& thing : staged) {
     if (!std::holds_alternative<FileMesh>(things[thing.index].mesh.shape)) continue;
-    MeshState found{list, thing.index, {}, size_m(thing.drawables)};
+    MeshState found{list, thing.index, {}, world_bounds(thing.drawables).size_m()};
     for (const Drawable& drawable : thing.drawables) {
       for (const MeshFlaw& flaw : flaws_once(drawable.mesh)) add_flaw(found.flaws, flaw);
     }
@@ -68,15 +52,14 @@ void add_things(const std::string& list, const Things& things, const std::vector
   }
 }
 
-/// Files do not say their unit: a thing far too large was written in millimetres, or (if that makes nothing of it)
-/// centimetres; one far too small was made metres twice.
+/// Files do not say their unit: a thing of twenty metres and more was written in millimetres, one that is a little
+/// smaller in centimetres; one far too small was made metres twice.
 std::optional<Finding> size_finding(const Project& project, const MeshState& thing) {
   const double longest_m = std::max({thing.size_m.x, thing.size_m.y, thing.size_m.z});
   if (!(longest_m > 0.0) || (longest_m <= largest_thing_m && longest_m >= smallest_thing_m)) return std::nullopt;
   const bool large = longest_m > largest_thing_m;
-  const double factor = !large ? 1e3 : longest_m * 1e-3 >= smallest_thing_m && longest_m > 20.0 ? 1e-3 : 1e-2;
-  const double scale =
-      thing.list == "surfaces" ? project.surfaces[thing.index].scale : project.objects[thing.index].scale;
+  const double factor = !large ? 1e3 : longest_m > 20.0 ? 1e-3 : 1e-2;
+  const double scale = with_thing(project, thing, [](const auto& one) { return one.scale; });
   const char* guess = !large           ? "made metres twice?"
                       : factor == 1e-3 ? "a file in millimetres?"
                                        : "a file in centimetres?";

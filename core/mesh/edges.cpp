@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include <glm/geometric.hpp>
-
 #include "core/mesh/joined_sets.h"
 #include "core/mesh/measure.h"
 
@@ -49,9 +47,7 @@ TriangleGroups connected_triangles(const Mesh& mesh, const Edges& edges, bool ac
 std::vector<double> group_areas_m2(const Mesh& mesh, const TriangleGroups& groups) {
   std::vector<double> areas_m2(groups.count, 0.0);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const glm::uvec3& t = mesh.triangles[i];
-    areas_m2[groups.of_triangle[i]] +=
-        0.5 * glm::length(doubled_area(mesh.positions_m[t.x], mesh.positions_m[t.y], mesh.positions_m[t.z]));
+    areas_m2[groups.of_triangle[i]] += triangle_area_m2(mesh, mesh.triangles[i]);
   }
   return areas_m2;
 }

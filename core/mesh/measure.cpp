@@ -1,28 +1,16 @@
 #include "core/mesh/measure.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <string>
 #include <unordered_map>
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+
+#include "core/mesh/position_hash.h"
 
 namespace focalstage {
 namespace {
-
-struct PositionHash {
-  std::size_t operator()(const glm::dvec3& p) const {
-    std::uint64_t hash = 0;
-    for (int i = 0; i < 3; ++i) {
-      // + 0.0 turns -0 into 0, which compare equal.
-      hash = (hash ^ std::bit_cast<std::uint64_t>(p[i] + 0.0)) * 0x9E3779B97F4A7C15u;
-      hash ^= hash >> 32;
-    }
-    return hash;
-  }
-};
 
 bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -32,14 +20,8 @@ Fault invalid(const std::string& what) { return {"mesh.invalid", "", what, "repa
 
 Bounds mesh_bounds(const Mesh& mesh) {
   Bounds bounds;
-  bool first = true;
   for (const glm::uvec3& triangle : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) {
-      const glm::dvec3& p = mesh.positions_m[triangle[i]];
-      bounds.min_m = first ? p : glm::min(bounds.min_m, p);
-      bounds.max_m = first ? p : glm::max(bounds.max_m, p);
-      first = false;
-    }
+    for (int i = 0; i < 3; ++i) bounds.include(mesh.positions_m[triangle[i]]);
   }
   return bounds;
 }
@@ -48,11 +30,17 @@ glm::dvec3 doubled_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dve
   return glm::cross(b - a, c - a);
 }
 
+glm::dvec3 doubled_area(const Mesh& mesh, const glm::uvec3& triangle) {
+  return doubled_area(mesh.positions_m[triangle.x], mesh.positions_m[triangle.y], mesh.positions_m[triangle.z]);
+}
+
+double triangle_area_m2(const Mesh& mesh, const glm::uvec3& triangle) {
+  return 0.5 * glm::length(doubled_area(mesh, triangle));
+}
+
 double mesh_area_m2(const Mesh& mesh) {
   double area_m2 = 0.0;
-  for (const glm::uvec3& t : mesh.triangles) {
-    area_m2 += 0.5 * glm::length(doubled_area(mesh.positions_m[t.x], mesh.positions_m[t.y], mesh.positions_m[t.z]));
-  }
+  for (const glm::uvec3& triangle : mesh.triangles) area_m2 += triangle_area_m2(mesh, triangle);
   return area_m2;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <glm/common.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
@@ -14,6 +15,9 @@ struct Bounds {
   glm::dvec3 max_m{-1.0};
 
   bool empty() const { return min_m.x > max_m.x; }
+  void include(const glm::dvec3& point_m) {
+    *this = empty() ? Bounds{point_m, point_m} : Bounds{glm::min(min_m, point_m), glm::max(max_m, point_m)};
+  }
   glm::dvec3 size_m() const {
     if (empty()) return glm::dvec3(0.0);
     return max_m - min_m;
@@ -25,6 +29,11 @@ Bounds mesh_bounds(const Mesh& mesh);
 
 /// Twice the area as a vector along the front's normal; its length is zero for a degenerate triangle.
 glm::dvec3 doubled_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c);
+
+/// The same of one of a mesh's triangles.
+glm::dvec3 doubled_area(const Mesh& mesh, const glm::uvec3& triangle);
+
+double triangle_area_m2(const Mesh& mesh, const glm::uvec3& triangle);
 
 /// Sum of all triangles' areas.
 double mesh_area_m2(const Mesh& mesh);

@@ -19,7 +19,7 @@ std::vector<glm::dvec3> face_normals(const Mesh& mesh) {
   std::vector<glm::dvec3> normals;
   normals.reserve(mesh.triangles.size());
   for (const glm::uvec3& t : mesh.triangles) {
-    const glm::dvec3 area = doubled_area(mesh.positions_m[t.x], mesh.positions_m[t.y], mesh.positions_m[t.z]);
+    const glm::dvec3 area = doubled_area(mesh, t);
     const double length = glm::length(area);
     normals.push_back(length > 0.0 ? area / length : glm::dvec3(0.0));
   }

@@ -13,22 +13,12 @@
 #include <glm/vec3.hpp>
 
 #include "core/mesh/measure.h"
+#include "core/mesh/position_hash.h"
 #include "core/process/vertices.h"
 
 namespace focalstage {
 
 namespace {
-
-struct CellHash {
-  std::size_t operator()(const glm::i64vec3& cell) const {
-    std::uint64_t hash = 0;
-    for (int i = 0; i < 3; ++i) {
-      hash = (hash ^ static_cast<std::uint64_t>(cell[i])) * 0x9E3779B97F4A7C15U;
-      hash ^= hash >> 32;
-    }
-    return hash;
-  }
-};
 
 /// Points that have been met, in cells as large as the tolerance.
 class NearPoints {
@@ -58,7 +48,7 @@ class NearPoints {
  private:
   const Mesh& mesh_;
   double tolerance_m_;
-  std::unordered_map<glm::i64vec3, std::vector<std::uint32_t>, CellHash> cells_;
+  std::unordered_map<glm::i64vec3, std::vector<std::uint32_t>, PositionHash> cells_;
 };
 
 void move_together(Mesh& mesh, double tolerance_m) {
@@ -108,8 +98,7 @@ Unclean unclean_triangles(const Mesh& mesh) {
   Unclean found{std::vector<bool>(mesh.triangles.size()), std::vector<bool>(mesh.triangles.size())};
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     const glm::uvec3& t = mesh.triangles[i];
-    const auto& at = mesh.positions_m;
-    if (!(glm::length(doubled_area(at[t.x], at[t.y], at[t.z])) > 0.0)) {
+    if (!(triangle_area_m2(mesh, t) > 0.0)) {
       found.no_area[i] = true;
       continue;
     }

@@ -6,8 +6,6 @@
 #include <map>
 #include <tuple>
 
-#include <glm/geometric.hpp>
-
 #include "core/mesh/measure.h"
 
 namespace focalstage {
@@ -24,8 +22,7 @@ class HalfEdgeMaker {
 
   HalfEdges make() {
     for (const glm::uvec3& triangle : mesh_.triangles) {
-      const auto& at = mesh_.positions_m;
-      if (!(glm::length(doubled_area(at[triangle.x], at[triangle.y], at[triangle.z])) > 0.0)) continue;
+      if (!(triangle_area_m2(mesh_, triangle) > 0.0)) continue;
       Corners corners;
       for (int k = 0; k < 3; ++k) corners[static_cast<std::size_t>(k)] = shared(triangle[k]);
       if (fits(corners) && made_.mesh.add_face(corners[0], corners[1], corners[2]).is_valid()) continue;

@@ -69,9 +69,7 @@ JoinedSets joined_corners(const Mesh& mesh, const std::vector<glm::dvec3>& areas
 
 Mesh with_normals(const Mesh& mesh) {
   std::vector<glm::dvec3> areas;
-  for (const glm::uvec3& t : mesh.triangles) {
-    areas.push_back(doubled_area(mesh.positions_m[t.x], mesh.positions_m[t.y], mesh.positions_m[t.z]));
-  }
+  for (const glm::uvec3& triangle : mesh.triangles) areas.push_back(doubled_area(mesh, triangle));
   JoinedSets corners = joined_corners(mesh, areas);
   std::vector<glm::dvec3> sums(3 * areas.size(), glm::dvec3(0.0));
   for (std::uint32_t i = 0; i < sums.size(); ++i) sums[corners.root(i)] += areas[i / 3];

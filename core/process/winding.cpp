@@ -56,11 +56,6 @@ std::vector<bool> against_first(const Neighbours& neighbours) {
   return turned;
 }
 
-double area_m2(const Mesh& mesh, std::size_t triangle) {
-  const glm::uvec3& t = mesh.triangles[triangle];
-  return 0.5 * glm::length(doubled_area(mesh.positions_m[t.x], mesh.positions_m[t.y], mesh.positions_m[t.z]));
-}
-
 /// Turns those triangles. A vertex that also belongs to others comes twice, with its normal either way.
 Mesh with_turned(const Mesh& mesh, const std::vector<bool>& turned) {
   std::map<std::pair<std::uint32_t, bool>, std::uint32_t> new_place;
@@ -130,7 +125,7 @@ Mesh evenly_wound(const Mesh& mesh) {
   std::vector<double> turned_less_kept_m2(groups.count, 0.0);
   Mesh even = mesh;
   for (std::size_t i = 0; i < turned.size(); ++i) {
-    turned_less_kept_m2[groups.of_triangle[i]] += (turned[i] ? 1.0 : -1.0) * area_m2(mesh, i);
+    turned_less_kept_m2[groups.of_triangle[i]] += (turned[i] ? 1.0 : -1.0) * triangle_area_m2(mesh, mesh.triangles[i]);
     if (turned[i]) std::swap(even.triangles[i].y, even.triangles[i].z);
   }
   const std::vector<double> volumes_m3 = group_volumes_m3(even, groups);

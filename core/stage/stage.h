@@ -70,8 +70,8 @@ struct Stage {
   std::vector<Light> lights;
 };
 
-/// Stands the project up at `time_s`. Faults: "stage.asset-missing", "stage.process-unknown", with a JSON pointer.
-/// Primitive meshes are made once per shape and shared between calls.
+/// Stands the project up at `time_s`. Faults: "stage.asset-missing", "stage.mesh-size", "process.*", with a JSON
+/// pointer. Primitive meshes are made once per shape and shared between calls.
 Result<Stage> stage(const Project& project, const Assets& assets, double time_s);
 
 /// The pose of a placement at `time_s`: before the first key the first, after the last the last; linear and slerp

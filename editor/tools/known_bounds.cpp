@@ -2,8 +2,6 @@
 
 #include <unordered_map>
 
-#include <glm/common.hpp>
-
 namespace focalstage {
 namespace {
 
@@ -33,8 +31,7 @@ Bounds rough_world_bounds(const std::vector<Drawable>& drawables) {
     for (unsigned i = 0; i < 8 && !own.empty(); ++i) {
       const glm::dvec3 corner{(i & 1u) != 0 ? own.max_m.x : own.min_m.x, (i & 2u) != 0 ? own.max_m.y : own.min_m.y,
                               (i & 4u) != 0 ? own.max_m.z : own.min_m.z};
-      const glm::dvec3 p(drawable.world_from_mesh * glm::dvec4(corner, 1.0));
-      all = all.empty() ? Bounds{p, p} : Bounds{glm::min(all.min_m, p), glm::max(all.max_m, p)};
+      all.include(glm::dvec3(drawable.world_from_mesh * glm::dvec4(corner, 1.0)));
     }
   }
   return all;

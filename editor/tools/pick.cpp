@@ -20,19 +20,9 @@ void each_thing(const Stage& stage, Visit&& visit) {
   for (const StagedObject& object : stage.objects) visit(StagedName{"objects", object.name}, object.drawables);
 }
 
-void include(Bounds& bounds, const glm::dvec3& point_m) {
-  if (bounds.empty()) {
-    bounds = {point_m, point_m};
-  } else {
-    bounds = {glm::min(bounds.min_m, point_m), glm::max(bounds.max_m, point_m)};
-  }
-}
-
 glm::dvec3 world_normal(const Drawable& drawable, std::uint32_t triangle, const glm::dvec3& seen_along) {
-  const glm::uvec3& t = drawable.mesh->triangles[triangle];
-  const std::vector<glm::dvec3>& p = drawable.mesh->positions_m;
   const glm::dvec3 normal = glm::normalize(glm::dmat3(glm::inverseTranspose(drawable.world_from_mesh)) *
-                                           doubled_area(p[t.x], p[t.y], p[t.z]));
+                                           doubled_area(*drawable.mesh, drawable.mesh->triangles[triangle]));
   return glm::dot(normal, seen_along) > 0.0 ? -normal : normal;
 }
 
@@ -89,32 +79,19 @@ void Picker::keep_only(const Stage& stage) {
   std::erase_if(trees_, [&](const auto& tree) { return !used.contains(tree.first); });
 }
 
-Bounds world_bounds(const std::vector<Drawable>& drawables) {
-  Bounds bounds;
-  for (const Drawable& drawable : drawables) {
-    for (const glm::uvec3& t : drawable.mesh->triangles) {
-      for (int corner = 0; corner < 3; ++corner) {
-        const glm::dvec3& p = drawable.mesh->positions_m[t[corner]];
-        include(bounds, glm::dvec3(drawable.world_from_mesh * glm::dvec4(p, 1.0)));
-      }
-    }
-  }
-  return bounds;
-}
-
 Bounds stage_bounds(const Stage& stage, const MayPick& wanted, bool with_viewer) {
   Bounds bounds;
   each_thing(stage, [&](const StagedName& thing, const std::vector<Drawable>& drawables) {
     if (wanted && !wanted(thing)) return;
     const Bounds own = world_bounds(drawables);
     if (own.empty()) return;
-    include(bounds, own.min_m);
-    include(bounds, own.max_m);
+    bounds.include(own.min_m);
+    bounds.include(own.max_m);
   });
   if (with_viewer) {
     for (const glm::dvec3& point :
          {glm::dvec3(-0.09, -0.13, 0.18), glm::dvec3(0.09, 0.12, 0.0), glm::dvec3(0.0, 0.0, -looked_at_m)}) {
-      include(bounds, stage.world_from_viewer.point(point));
+      bounds.include(stage.world_from_viewer.point(point));
     }
   }
   return bounds;

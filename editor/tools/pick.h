@@ -9,6 +9,7 @@
 
 #include "core/mesh/measure.h"
 #include "core/stage/stage.h"
+#include "core/stage/world_bounds.h"
 #include "editor/tools/mesh_tree.h"
 #include "editor/tools/room_view.h"
 
@@ -53,9 +54,6 @@ class Picker {
  private:
   std::map<const Mesh*, MeshTree> trees_;  ///< each holds its mesh, so that no address is used twice
 };
-
-/// Around everything the drawables hold, in the world.
-Bounds world_bounds(const std::vector<Drawable>& drawables);
 
 /// Around surfaces and objects of the stage for which `wanted` (all, where it is empty); with `with_viewer` also around
 /// the viewer's head and half a metre of what it looks at, so that an empty room has a size too.

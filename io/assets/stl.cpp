@@ -1,9 +1,9 @@
-#include <bit>
 #include <cmath>
 #include <unordered_map>
 
 #include <glm/geometric.hpp>
 
+#include "core/mesh/position_hash.h"
 #include "io/assets/byte_reader.h"
 #include "io/assets/mesh_file.h"
 #include "io/assets/text_reader.h"
@@ -13,17 +13,6 @@ namespace {
 
 constexpr std::size_t header_bytes = 84;
 constexpr std::size_t facet_bytes = 50;
-
-struct PositionHash {
-  std::size_t operator()(const glm::dvec3& p) const {
-    std::uint64_t hash = 0;
-    for (int i = 0; i < 3; ++i) {
-      hash = (hash ^ std::bit_cast<std::uint64_t>(p[i] + 0.0)) * 0x9E3779B97F4A7C15u;  // -0 + 0.0 is 0
-      hash ^= hash >> 32;
-    }
-    return hash;
-  }
-};
 
 /// Facets in the file's order; equal corners become one vertex, which loses nothing, since an STL's corners carry
 /// nothing else. Its normals say what the winding says already; where they disagree the winding counts.
