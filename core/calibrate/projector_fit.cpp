@@ -11,8 +11,6 @@ namespace focalstage {
 
 namespace {
 
-constexpr double nearest_m = 1e-6;
-
 /// Scales at which a change of each unknown moves pixels about alike, a metre or so away.
 Eigen::VectorXd scale_of(int unknowns, double focal_px) {
   Eigen::VectorXd scale(9);
@@ -32,12 +30,6 @@ ProjectorModel changed(const ProjectorModel& start, const Eigen::VectorXd& by) {
 
 int unknowns_of(LensFreedom freedom) {
   return freedom == LensFreedom::fixed ? 6 : freedom == LensFreedom::focal ? 7 : 9;
-}
-
-std::optional<glm::dvec2> pixel_of_world(const ProjectorModel& model, const glm::dvec3& world_m) {
-  const glm::dvec3 p = model.world_from_projector.inverse().point(world_m);
-  if (!(p.z < -nearest_m)) return std::nullopt;
-  return pixel_of_tangent(model, glm::dvec2(p) / -p.z);
 }
 
 std::optional<ProjectorFit> fit_projector(const ProjectorModel& start, const std::vector<PickedPoint>& points,

@@ -25,9 +25,6 @@ struct ProjectorFit {
 
 int unknowns_of(LensFreedom freedom);
 
-/// Where a world point lands; none where it is not in front of the projector.
-std::optional<glm::dvec2> pixel_of_world(const ProjectorModel& model, const glm::dvec3& world_m);
-
 /// From `start` downhill. None where a point of the start lies behind it, or they do not determine what is free.
 std::optional<ProjectorFit> fit_projector(const ProjectorModel& start, const std::vector<PickedPoint>& points,
                                           LensFreedom freedom);

@@ -104,4 +104,11 @@ glm::dvec2 pixel_of_tangent(const ProjectorModel& model, const glm::dvec2& tange
   return pixel_of_place(model, place_of_tangent(model, tangent));
 }
 
+std::optional<glm::dvec2> pixel_of_world(const ProjectorModel& model, const glm::dvec3& world_m) {
+  constexpr double nearest_m = 1e-6;
+  const glm::dvec3 p = model.world_from_projector.inverse().point(world_m);
+  if (!(p.z < -nearest_m)) return std::nullopt;
+  return pixel_of_tangent(model, glm::dvec2(p) / -p.z);
+}
+
 }  // namespace focalstage

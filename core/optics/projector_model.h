@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -49,5 +50,8 @@ glm::dvec2 place_of_tangent(const ProjectorModel& model, const glm::dvec2& tange
 /// The same for pixels, which is how light leaves a projector: whoever asks which pixel lights what asks here.
 glm::dvec2 tangent_of_pixel(const ProjectorModel& model, const glm::dvec2& pixel);
 glm::dvec2 pixel_of_tangent(const ProjectorModel& model, const glm::dvec2& tangent);
+
+/// Where a world point lands; none where it is not in front of the projector, by a micrometre.
+std::optional<glm::dvec2> pixel_of_world(const ProjectorModel& model, const glm::dvec3& world_m);
 
 }  // namespace focalstage

@@ -49,12 +49,18 @@ bool is_fin(const std::vector<Fork*>& forks, std::uint32_t sheet) {
 
 }  // namespace
 
+std::vector<bool> small_bits(const std::vector<double>& areas_m2, double least_share) {
+  const double largest_m2 = areas_m2.empty() ? 0.0 : *std::ranges::max_element(areas_m2);
+  std::vector<bool> small;
+  for (const double area_m2 : areas_m2) small.push_back(area_m2 < least_share * largest_m2);
+  return small;
+}
+
 Mesh without_bits(const Mesh& mesh, double least_share) {
   const TriangleGroups bits = connected_triangles(mesh, Edges(mesh), true);
-  const std::vector<double> areas_m2 = group_areas_m2(mesh, bits);
-  const double largest_m2 = areas_m2.empty() ? 0.0 : *std::ranges::max_element(areas_m2);
+  const std::vector<bool> small = small_bits(group_areas_m2(mesh, bits), least_share);
   std::vector<bool> kept;
-  for (const std::uint32_t bit : bits.of_triangle) kept.push_back(areas_m2[bit] >= least_share * largest_m2);
+  for (const std::uint32_t bit : bits.of_triangle) kept.push_back(!small[bit]);
   return mesh_of_triangles(mesh, kept);
 }
 
@@ -81,7 +87,7 @@ Mesh part_of(const Mesh& mesh, double fold_deg, int part) {
   const SmoothParts parts = smooth_parts(mesh, sin_cos_deg(fold_deg).cos);
   std::vector<std::uint32_t> order(parts.area_m2.size());
   std::iota(order.begin(), order.end(), 0U);
-  std::ranges::stable_sort(order, [&](auto a, auto b) { return parts.area_m2[a] > parts.area_m2[b]; });
+  std::ranges::stable_sort(order, std::greater(), [&](std::uint32_t i) { return parts.area_m2[i]; });
   std::vector<bool> kept(mesh.triangles.size());
   if (part >= 0 && static_cast<std::size_t>(part) < order.size()) {
     for (std::size_t i = 0; i < kept.size(); ++i) {

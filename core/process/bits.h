@@ -1,8 +1,13 @@
 #pragma once
 
+#include <vector>
+
 #include "core/mesh/mesh.h"
 
 namespace focalstage {
+
+/// Which of bits that hang on nothing are small: their area is less than `least_share` of the largest one's.
+std::vector<bool> small_bits(const std::vector<double>& areas_m2, double least_share);
 
 /// Bits that hang on nothing go where their area is less than `least_share` of the largest one's.
 Mesh without_bits(const Mesh& mesh, double least_share);

@@ -53,10 +53,9 @@ std::optional<Border> follow(const Mesh& mesh, BorderEdges& edges, BorderEdges::
 
 }  // namespace
 
-std::vector<Border> borders_of(const Mesh& mesh, const Edges& edges) {
+std::vector<Border> borders_of(const Mesh& mesh, const Edges& edges, const TriangleGroups& bits,
+                               const std::vector<double>& areas_m2) {
   constexpr double rim_share = 3.0;
-  const TriangleGroups groups = connected_triangles(mesh, edges, true);
-  const std::vector<double> areas_m2 = group_areas_m2(mesh, groups);
   BorderEdges left = border_edges(mesh, edges);
   std::vector<Border> borders;
   std::map<std::uint32_t, std::size_t> longest;  // of each group
@@ -65,13 +64,13 @@ std::vector<Border> borders_of(const Mesh& mesh, const Edges& edges) {
     std::optional<Border> border = follow(mesh, left, edge);
     if (!border) continue;
     border->hole = true;
-    const auto [entry, is_first] = longest.try_emplace(groups.of_triangle[edge->second.triangle], borders.size());
+    const auto [entry, is_first] = longest.try_emplace(bits.of_triangle[edge->second.triangle], borders.size());
     if (!is_first && border->length_m > borders[entry->second].length_m) entry->second = borders.size();
     borders.push_back(*std::move(border));
   }
-  for (const auto& [group, place] : longest) {
+  for (const auto& [bit, place] : longest) {
     const double length_m = borders[place].length_m;
-    borders[place].hole = length_m * length_m <= rim_share * areas_m2[group];
+    borders[place].hole = length_m * length_m <= rim_share * areas_m2[bit];
   }
   return borders;
 }
@@ -134,7 +133,8 @@ class LeastArea {
 Mesh filled(const Mesh& mesh, std::optional<double> longest_m) {
   const Edges edges(mesh);
   Mesh made = mesh;
-  for (const Border& border : borders_of(mesh, edges)) {
+  const TriangleGroups bits = connected_triangles(mesh, edges, true);
+  for (const Border& border : borders_of(mesh, edges, bits, group_areas_m2(mesh, bits))) {
     const bool asked = longest_m ? border.length_m <= *longest_m : border.hole;
     if (!asked || border.vertices.size() < 3 || border.vertices.size() > most_border_vertices) continue;
     LeastArea(mesh, border.vertices).append_to(made.triangles);

@@ -30,16 +30,14 @@ void count_flaws(const Mesh& mesh, MeshReport& report) {
   if (report.edges_against == 0) {
     for (std::size_t i = 0; i < sheets.count; ++i) report.bodies_inside_out += closed[i] && volumes_m3[i] < 0.0;
   }
-  for (const Border& border : borders_of(mesh, edges)) {
+  const TriangleGroups bits = connected_triangles(mesh, edges, true);
+  const std::vector<double> areas_m2 = group_areas_m2(mesh, bits);
+  report.bits = static_cast<std::size_t>(std::ranges::count(small_bits(areas_m2, bit_share), true));
+  for (const Border& border : borders_of(mesh, edges, bits, areas_m2)) {
     if (!border.hole) continue;
     ++report.holes;
     report.longest_hole_m = std::max(report.longest_hole_m, border.length_m);
   }
-  const TriangleGroups bits = connected_triangles(mesh, edges, true);
-  const std::vector<double> areas_m2 = group_areas_m2(mesh, bits);
-  const double largest_m2 = areas_m2.empty() ? 0.0 : *std::ranges::max_element(areas_m2);
-  report.bits = static_cast<std::size_t>(
-      std::ranges::count_if(areas_m2, [&](double area_m2) { return area_m2 < bit_share * largest_m2; }));
 }
 
 std::string several(std::size_t count, const std::string& one, const std::string& many) {
@@ -50,9 +48,6 @@ std::string several(std::size_t count, const std::string& one, const std::string
 
 MeshReport report_mesh(const Mesh& mesh) {
   MeshReport report;
-  report.vertices = mesh.positions_m.size();
-  report.triangles = mesh.triangles.size();
-  report.bounds = mesh_bounds(mesh);
   count_unclean(mesh, report);
   if (report.no_area + report.repeated == 0) {
     count_flaws(mesh, report);

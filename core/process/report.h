@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh/measure.h"
 #include "core/mesh/mesh.h"
 #include "core/scene/process.h"
 
@@ -14,17 +13,14 @@ namespace focalstage {
 
 /// What a mesh is like, for somebody who has to light it.
 struct MeshReport {
-  std::size_t vertices = 0;
-  std::size_t triangles = 0;
   std::size_t no_area = 0;            ///< triangles
   std::size_t repeated = 0;           ///< triangles with the places of another for corners
   std::size_t forked_edges = 0;       ///< with more than two triangles
   std::size_t edges_against = 0;      ///< with two triangles that run along them the same way
   std::size_t bodies_inside_out = 0;  ///< closed, and looking inwards
   std::size_t holes = 0;
-  double longest_hole_m = 0.0;  ///< around
+  double longest_hole_m = 0.0;  ///< around, by the mesh's own measure
   std::size_t bits = 0;         ///< loose, smaller than 1 % of the largest one's area
-  Bounds bounds;
 
   bool sound() const {
     return no_area + repeated + forked_edges + edges_against + bodies_inside_out + holes + bits == 0;

@@ -8,17 +8,14 @@
 namespace focalstage {
 namespace {
 
+constexpr auto word_of = []<class Shape>(const Shape&) { return Table<Shape>::primitive; };
+
 /// The shape that `value` names, fresh; nothing where the name is unknown.
 std::optional<MeshShape> named_shape(const Value& value) {
   if (value.find("file")) return FileMesh{};
   const Value* primitive = value.find("primitive");
   if (!primitive || !primitive->text()) return std::nullopt;
-  std::optional<MeshShape> named;
-  each_alternative<MeshShape>([&](const auto& shape) {
-    constexpr std::string_view word = Table<std::remove_cvref_t<decltype(shape)>>::primitive;
-    if (!word.empty() && word == *primitive->text()) named = shape;
-  });
-  return named;
+  return alternative_named<MeshShape>(*primitive->text(), word_of);
 }
 
 bool no_shape(Reading& reading, const Value& value) {
@@ -28,12 +25,7 @@ bool no_shape(Reading& reading, const Value& value) {
   }
   const Reading::Step step(reading, "primitive");
   if (!primitive->text()) return reading.wrong_type(*primitive, "text");
-  std::vector<std::string_view> words;
-  each_alternative<MeshShape>([&](const auto& shape) {
-    constexpr std::string_view word = Table<std::remove_cvref_t<decltype(shape)>>::primitive;
-    if (!word.empty()) words.push_back(word);
-  });
-  return not_one_of(reading, *primitive->text(), words);
+  return not_one_of(reading, *primitive->text(), alternative_words<MeshShape>(word_of));
 }
 
 }  // namespace
@@ -81,11 +73,8 @@ void Codec<MeshSource>::keys(KeyList& list) {
 std::vector<std::string_view> shape_keys(const Value& value) {
   std::vector<std::string_view> keys{"file", "primitive"};
   if (const auto shape = named_shape(value)) {
-    std::visit(
-        [&](const auto& s) {
-          each_field<std::remove_cvref_t<decltype(s)>>([&](const auto& field) { keys.push_back(field.key); });
-        },
-        *shape);
+    const auto own = keys_of_alternative(*shape);
+    keys.insert(keys.end(), own.begin(), own.end());
   }
   return keys;
 }

@@ -7,17 +7,12 @@
 namespace focalstage {
 namespace {
 
-template <class Kind>
-constexpr std::string_view name_of_kind = Table<std::remove_cvref_t<Kind>>::step;
+constexpr auto word_of = []<class Kind>(const Kind&) { return Table<Kind>::step; };
 
 std::optional<ProcessKind> named_kind(const Value& value) {
   const Value* name = value.find("step");
   if (!name || !name->text()) return std::nullopt;
-  std::optional<ProcessKind> named;
-  each_alternative<ProcessKind>([&](const auto& kind) {
-    if (name_of_kind<decltype(kind)> == *name->text()) named = kind;
-  });
-  return named;
+  return alternative_named<ProcessKind>(*name->text(), word_of);
 }
 
 bool no_kind(Reading& reading, const Value& value) {
@@ -25,10 +20,8 @@ bool no_kind(Reading& reading, const Value& value) {
   if (!name || !name->text()) {
     return reading.fail_at("step", "project.missing", "is no name of a step", "name the step: {\"step\": ..}");
   }
-  std::vector<std::string_view> words;
-  each_alternative<ProcessKind>([&](const auto& kind) { words.push_back(name_of_kind<decltype(kind)>); });
   const Reading::Step step(reading, "step");
-  return not_one_of(reading, *name->text(), words);
+  return not_one_of(reading, *name->text(), alternative_words<ProcessKind>(word_of));
 }
 
 }  // namespace
@@ -66,20 +59,11 @@ void Codec<ProcessStep>::keys(KeyList& list) {
   each_alternative<ProcessKind>([&](const auto& kind) { list_fields<std::remove_cvref_t<decltype(kind)>>(list); });
 }
 
-std::string_view name_of(const ProcessKind& step) {
-  return std::visit([](const auto& kind) { return name_of_kind<decltype(kind)>; }, step);
-}
+std::string_view name_of(const ProcessKind& step) { return std::visit(word_of, step); }
 
 std::vector<std::string_view> step_keys(const Value& value) {
-  std::vector<std::string_view> keys;
   const auto named = named_kind(value);
-  if (!named) return keys;
-  std::visit(
-      [&](const auto& kind) {
-        each_field<std::remove_cvref_t<decltype(kind)>>([&](const auto& field) { keys.push_back(field.key); });
-      },
-      *named);
-  return keys;
+  return named ? keys_of_alternative(*named) : std::vector<std::string_view>();
 }
 
 }  // namespace focalstage

@@ -73,13 +73,11 @@ std::optional<Exposed> exposed(const RoomOfLight& room, Side side, const Depth& 
     straight = next;
     if (stands) break;
   }
-  const glm::dvec3 light_m =
-      room.projector.world_from_projector.inverse().point(eye.eye_from_world.inverse().point(at_m));
-  if (!(light_m.z < 0.0)) return std::nullopt;
-  made.pixel = pixel_of_tangent(room.projector, glm::dvec2(light_m) / -light_m.z);
-  const bool inside = made.pixel.x >= 0.0 && made.pixel.y >= 0.0 && made.pixel.x < room.projector.width_px &&
-                      made.pixel.y < room.projector.height_px;
+  const auto pixel = pixel_of_world(room.projector, eye.eye_from_world.inverse().point(at_m));
+  const bool inside = pixel && pixel->x >= 0.0 && pixel->y >= 0.0 && pixel->x < room.projector.width_px &&
+                      pixel->y < room.projector.height_px;
   if (!inside) return std::nullopt;
+  made.pixel = *pixel;
   return made;
 }
 

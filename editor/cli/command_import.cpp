@@ -16,22 +16,19 @@ struct Options {
   bool json = false;
 };
 
-/// The file as the only thing of a project, to be looked at as `check` looks.
-Result<MeshState> state_of(const std::filesystem::path& file, std::vector<Finding>& findings) {
+/// The file as the only thing of a project, to be looked at as `check` looks. What is found is added to `found`.
+Result<MeshState> state_of(const std::string& name, ImportReport& found) {
   Project project;
   project.objects.resize(1);
-  project.objects[0].name = file.filename().string();
-  project.objects[0].mesh.shape = FileMesh{file.filename().string()};
-  const std::filesystem::path folder = file.parent_path();
-  const auto loaded = load_assets(project, folder.empty() ? std::filesystem::path(".") : folder);
-  if (!loaded) return loaded.fault();
-  const auto stood = stage(project, loaded->assets, 0.0);
+  project.objects[0].name = name;
+  project.objects[0].mesh.shape = FileMesh{name};
+  const auto stood = stage(project, Assets{{{name, found.model}}}, 0.0);
   if (!stood) return stood.fault();
   const std::vector<MeshState> states = mesh_states(project, *stood);
   for (Finding& finding : mesh_findings(project, states)) {
-    finding.where = project.objects[0].name;
+    finding.where = name;
     finding.remedy.clear();  // belongs to a thing of a project
-    findings.push_back(std::move(finding));
+    found.findings.push_back(std::move(finding));
   }
   return states.front();
 }
@@ -40,8 +37,8 @@ void print_report(const ImportReport& found, const glm::dvec3& size_m) {
   Value object;
   object.set("vertices", static_cast<double>(found.vertices));
   object.set("triangles", static_cast<double>(found.triangles));
-  object.set("nodes", static_cast<double>(found.nodes));
-  object.set("animations", static_cast<double>(found.animations));
+  object.set("nodes", static_cast<double>(found.model->nodes.size()));
+  object.set("animations", static_cast<double>(found.model->animations.size()));
   object.set("size_m", Value(Value::Array{size_m.x, size_m.y, size_m.z}));
   object.set("findings", *findings_value(found.findings).find("findings"));
   print_json(object);
@@ -50,15 +47,15 @@ void print_report(const ImportReport& found, const glm::dvec3& size_m) {
 ExitStatus run(const Options& options) {
   auto found = inspect_asset(options.file);
   if (!found) return report(found.fault());
-  const auto state = state_of(options.file, found->findings);
+  const auto state = state_of(std::filesystem::path(options.file).filename().string(), *found);
   if (!state) return report(state.fault());
   const glm::dvec3& size_m = state->size_m;
   if (options.json) {
     print_report(*found, size_m);
   } else {
     std::printf("%s: %zu vertices, %zu triangles, %zu nodes, %zu animations, %.4g x %.4g x %.4g m\n%s",
-                options.file.c_str(), found->vertices, found->triangles, found->nodes, found->animations, size_m.x,
-                size_m.y, size_m.z, findings_text(found->findings).c_str());
+                options.file.c_str(), found->vertices, found->triangles, found->model->nodes.size(),
+                found->model->animations.size(), size_m.x, size_m.y, size_m.z, findings_text(found->findings).c_str());
   }
   return status_of(found->findings);
 }

@@ -84,7 +84,7 @@ Result<ImportReport> inspect_asset(const std::filesystem::path& file) {
   FolderSource source(folder.empty() ? std::filesystem::path(".") : folder);
   Result<MeshFile> read = read_from(source, file.filename().string());
   if (!read) return read.fault();
-  return ImportReport{read->vertices, read->triangles, read->model.nodes.size(), read->model.animations.size(),
+  return ImportReport{read->vertices, read->triangles, std::make_shared<const Model>(std::move(read->model)),
                       std::move(read->findings)};
 }
 

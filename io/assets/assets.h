@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -41,8 +42,7 @@ Result<Assets> assets_from(const Project& project, const std::vector<AssetFile>&
 struct ImportReport {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
-  std::size_t nodes = 0;
-  std::size_t animations = 0;
+  std::shared_ptr<const Model> model;
   std::vector<Finding> findings;
 };
 

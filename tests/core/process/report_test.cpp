@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "core/mesh/measure.h"
 #include "core/process/process.h"
 #include "tests/core/process/meshes.h"
 
