@@ -203,7 +203,7 @@ void OptotuneDriver::note_zero(const Status& told, std::optional<Fault> why) {
   report_.mode = wanted_;
   report_.asked_a = 0.0;
   state_.phase = DevicePhase::ready;
-  if (why) state_.fault = std::move(why);
+  state_.fault = std::move(why);  // told to stop, it has no more to say of why it stopped by itself
 }
 
 }  // namespace focalstage

@@ -82,6 +82,7 @@ focalstage::Status UnoBoard::make_dark(Dialogue& dialogue, std::uint64_t asked) 
   dark_told_ = asked;
   report_.armed = false;
   phase_ = DevicePhase::ready;
+  fault_.reset();  // told to be dark, it has no more to say of why it went dark by itself
   changed_.notify_all();
   return {};
 }

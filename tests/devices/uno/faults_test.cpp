@@ -59,6 +59,16 @@ TEST_CASE("a board that goes dark by itself says why, with what to do, and stays
   CHECK(PluggedIn::soon([&] { return rig.triggers() > triggers; }));
 }
 
+TEST_CASE("told to be dark, it has no more to say of why it went dark by itself: a rig may go again") {
+  PluggedIn rig;
+  start(rig);
+  rig.board.sync(0.0);
+  REQUIRE(PluggedIn::soon([&] { return fault_of(rig) == "board.sync_lost"; }));
+  CHECK(rig.made_dark());
+  CHECK(fault_of(rig) == "none");
+  CHECK(rig.uno->state().phase == DevicePhase::ready);
+}
+
 TEST_CASE("unplugged while it runs: lost at once, dark, and found again under another name") {
   for (const bool keeps_power : {false, true}) {
     CAPTURE(keeps_power);
