@@ -127,7 +127,7 @@ Status Mcc1208Drive::start(const DrivePeriod& period) {
   }
   const Fault why =
       launched ? Fault{"drive.stopped", id().address, "it was stopped while it started", ""} : launched.fault();
-  halt_and_tell(*session, launched ? std::nullopt : std::optional(why));
+  halt_and_tell(*session, launched ? std::nullopt : std::optional(why), stops);
   return why;
 }
 
@@ -176,15 +176,16 @@ bool Mcc1208Drive::stop() noexcept {
   try {
     SessionPtr session;
     bool lost = false;
+    std::uint64_t stops = 0;
     {
       const std::lock_guard lock(mutex_);
-      ++stops_;
+      stops = ++stops_;
       session = session_;
       if (!session) return state_.phase == DevicePhase::off;
       lost = state_.phase == DevicePhase::lost;
     }
     if (lost) return halt(*session).ok();  // it may only have been silent
-    halt_and_tell(*session, std::nullopt);
+    halt_and_tell(*session, std::nullopt, stops);
     return state().phase != DevicePhase::lost;
   } catch (...) {
     return false;
@@ -206,8 +207,8 @@ Status Mcc1208Drive::halt(Session& session) {
 }
 
 // Zero, and the state afterwards: lost where the device could not be told, with the reason for the stop if there is
-// one.
-void Mcc1208Drive::halt_and_tell(Session& session, std::optional<Fault> why) {
+// one. Who stopped it last, by the count of `stops`, has the last word of why.
+void Mcc1208Drive::halt_and_tell(Session& session, std::optional<Fault> why, std::uint64_t stops) {
   const Status told = halt(session);
   const std::lock_guard lock(mutex_);
   if (session_.get() != &session) return;
@@ -218,7 +219,8 @@ void Mcc1208Drive::halt_and_tell(Session& session, std::optional<Fault> why) {
   }
   state_.phase = DevicePhase::ready;
   state_.heard_s = monotonic_s();
-  state_.fault = std::move(why);  // told to stop, it has no more to say of why it stopped by itself
+  if (stops_ == stops)
+    state_.fault = std::move(why);  // told to stop, it has no more to say of why it stopped by itself
 }
 
 DriveReport Mcc1208Drive::report() const { return stream_.report(monotonic_s()); }

@@ -50,12 +50,12 @@ class Mcc1208Drive final : public LensDrive {
   void drop_session();
   Status launch(Session& session, const Mcc1208Wave& wave);
   Status halt(Session& session);
-  void halt_and_tell(Session& session, std::optional<Fault> why);
+  void halt_and_tell(Session& session, std::optional<Fault> why, std::uint64_t stops);
 
   void watch(const std::stop_token& stop, Session& session);
   void look(Session& session);
-  void look_at_run(Session& session, const MccStatus& status);
-  void give_up(Session& session, const Fault& why);
+  void look_at_run(Session& session, const MccStatus& status, std::uint64_t stops);
+  void give_up(Session& session, const Fault& why, std::uint64_t stops);
   Fault reason(Session& session, const Fault& why);
   void heard();
   Fault not_ready() const;

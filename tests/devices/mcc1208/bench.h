@@ -31,13 +31,14 @@ class Bench {
       if (output.scan) ++scan_count_;
     });
     emulator_->plug_in();
-    clock_.emplace(*emulator_);
+    clock_ = std::make_unique<emulated::RealTime>(*emulator_);
   }
   ~Bench() { clock_.reset(); }
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
 
   emulated::Emulator& device() { return *emulator_; }
+  void stop_time() { clock_.reset(); }
 
   std::vector<emulated::Output> outputs() const {
     const std::lock_guard lock(mutex_);
@@ -62,7 +63,7 @@ class Bench {
   mutable std::mutex mutex_;
   std::vector<emulated::Output> outputs_;
   std::atomic<std::size_t> scan_count_ = 0;
-  std::optional<emulated::RealTime> clock_;
+  std::unique_ptr<emulated::RealTime> clock_;
 };
 
 inline Mcc1208Settings bench_settings() {

@@ -125,6 +125,26 @@ TEST_CASE("a transfer that ends short stops it: what follows would be out of ste
   CHECK(at_rest(bench));
 }
 
+TEST_CASE("one that takes no more samples is said first, while it still plays, and then ended") {
+  Bench bench;
+  const auto drive = make_mcc1208(bench_settings());
+  REQUIRE(drive->open().ok());
+  REQUIRE(drive->start(sine(0.2)).ok());
+  wait_s(0.2);
+  bench.stop_time();
+  const auto found_s = until([&] { return drive->state().fault.has_value(); }, 2.0);
+  REQUIRE(found_s);
+  CHECK(*found_s < 0.5);
+  CHECK(drive->state().fault->code == "drive.stalled");
+  CHECK(drive->state().phase == DevicePhase::running);
+  CHECK(enabled(bench));
+  const auto ended_s = until([&] { return drive->state().phase == DevicePhase::ready; }, 2.0);
+  REQUIRE(ended_s);
+  CHECK(*ended_s < 0.2);
+  CHECK(drive->state().fault->code == "drive.stalled");
+  CHECK(at_rest(bench));
+}
+
 TEST_CASE("a status that says underrun is believed while samples still flow") {
   Bench bench;
   const auto drive = make_mcc1208(bench_settings());
