@@ -29,13 +29,23 @@ DeviceRig::DeviceRig(RigDevices devices, const DeviceRigSettings& settings)
       devices_(std::move(devices)),
       settle_sweeps_(is_master(devices_) ? settings.following_sweeps : settings.settle_sweeps),
       projector_("projector", devices_.projector, [this] { return devices_.projector->dark(); }),
-      lens_("lens drive", devices_.lens, [this] { return devices_.lens->stop(); }),
       board_("trigger board", devices_.board, [this] { return devices_.board->dark(); }),
+      lens_("lens drive", devices_.lens, [this] { return stop_lens(); }),
       leader_([this](const std::stop_token& stop) { lead(stop); }) {}
 
 DeviceRig::~DeviceRig() {
   leader_.request_stop();
   leader_.join();
+  darken(std::nullopt);  // in its order: the hands end one after the other
+}
+
+/// After the light: what is still shown while the lenses go to rest would stand at a wrong depth.
+bool DeviceRig::stop_lens() {
+  for (const double until_s = monotonic_s() + settings_.light_goes_first_s; monotonic_s() < until_s;) {
+    if (projector_.settled() && board_.settled()) break;
+    std::this_thread::sleep_for(between_steps);
+  }
+  return devices_.lens->stop();
 }
 
 /// The sweep before is whole once the next one's images come.

@@ -49,14 +49,15 @@ class DeviceRig final : public Rig {
   void hand_on();
   void lead(const std::stop_token& stop);
   void darken(const std::optional<Fault>& doubt);
+  bool stop_lens();
 
   DeviceRigSettings settings_;
   RigDevices devices_;
   int settle_sweeps_;
   SweepGatherer gatherer_;  ///< of the one thread that hands over
   DeviceHand projector_;
-  DeviceHand lens_;
   DeviceHand board_;
+  DeviceHand lens_;  ///< looks at the two before it
   mutable std::mutex mutex_;
   std::deque<HandedSweep> handed_;
   std::uint64_t darkness_ = 0;  ///< how often it was made dark

@@ -20,6 +20,7 @@ struct DeviceRigSettings {
   int settle_sweeps = 60;      ///< for lenses to swing in, the board to find the beat, tables to travel
   int following_sweeps = 480;  ///< the same where the projector is the clock: the lens drive comes into step first
   double pulse_s = 100e-6;     ///< of a projector trigger
+  double light_goes_first_s = 0.03;  ///< told to be dark, the lens drive waits so long for the light to go out, at most
 };
 
 /// Leads the devices of a rig through what was handed over. Has no thread and no clock: `step` is told the time, every

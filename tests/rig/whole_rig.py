@@ -269,6 +269,41 @@ def test_a_trigger_that_comes_to_nothing():
         print(f"dark {1e3 * (last_s - lost_s):.0f} ms after it, {len(wrong)} exposures with another's picture")
 
 
+def test_busy_machine():
+    """As many programs as the machine has cores, each of which would have one for itself: what light there is is right, and
+    where there is none the rig says why, and plays again on go."""
+    seconds = float(os.environ.get("FOCALSTAGE_BUSY_SECONDS", "10"))
+    with folder() as at, emulated(at) as rig, busy_cores():
+        slots = pushed(rig, at)
+        faults = []
+        rig.play()
+        from_s = rig.tell("time")["time_s"]
+        while (now_s := rig.tell("time")["time_s"]) < from_s + seconds:
+            state = rig.state()
+            assert state["state"] == "playing" or state["fault"], state
+            if state["state"] != "playing":
+                faults.append(state["fault"])
+                rig.play()
+            time.sleep(0.1)
+        lights = [light for light in rig.light() if light["start_s"] > from_s + 0.5]
+        worst_d, worst_s, counts = hold_against(slots, lights)
+        asked_for = round((now_s - from_s - 0.5) / PERIOD_S) * sum(slot["lit"] for slot in slots)
+        assert sum(counts) > asked_for // 10, (counts, faults)
+        print(f"{sum(counts)} of {asked_for} exposures, {len(faults)} times dark: power within {worst_d:.4f} D, time within "
+              f"{worst_s * 1e6:.2f} us; {sorted(set(faults))}")
+
+
+@contextlib.contextmanager
+def busy_cores():
+    programs = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(os.cpu_count())]
+    try:
+        yield
+    finally:
+        for program in programs:
+            program.kill()
+            program.wait()
+
+
 class Tracker:
     """A NatNet server with a body "Box" at rest at (0, 0.5, -1); unplugged, it is killed."""
 
@@ -351,4 +386,5 @@ def test_tracker_unplugged_and_plugged_in():
 
 if __name__ == "__main__":
     main([test_plays_ten_seconds, test_board_clock_half_a_percent_off, test_a_lens_that_is_not_as_measured,
-          test_unplugged_and_plugged_in, test_tracker_unplugged_and_plugged_in, test_a_trigger_that_comes_to_nothing])
+          test_unplugged_and_plugged_in, test_tracker_unplugged_and_plugged_in, test_a_trigger_that_comes_to_nothing,
+          test_busy_machine])

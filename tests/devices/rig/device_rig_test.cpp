@@ -96,6 +96,30 @@ TEST_CASE("lights, and is dark on every device within 50 ms of being told") {
   CHECK(stand.lit());
 }
 
+TEST_CASE("the lenses go to rest once the light is out, or where that takes too long") {
+  Stand stand;
+  stand.hands.projector_darkens_ms = 15;
+  stand.play(1.6);
+  REQUIRE(stand.lit());
+  stand.rig->dark(monotonic_s());
+  CHECK(stand.seconds_until_safe() < 0.05);
+  CHECK(stand.hands.lens_stops_in_light == 0);
+
+  stand.hands.projector_darkens_ms = 300;
+  while (!stand.rig->ready()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  stand.play(1.6);
+  REQUIRE(stand.lit());
+  const double from_s = monotonic_s();
+  stand.rig->dark(from_s);
+  const auto driven = [&] {
+    const std::lock_guard lock(stand.hands.mutex);
+    return stand.hands.lens_on;
+  };
+  while (driven() && monotonic_s() < from_s + 1.0) std::this_thread::sleep_for(std::chrono::microseconds(200));
+  CHECK(monotonic_s() - from_s < 0.05);
+  stand.hands.projector_darkens_ms = 0;
+}
+
 TEST_CASE("a device that is lost makes all of them dark, and is named") {
   Stand stand;
   stand.play(1.4);

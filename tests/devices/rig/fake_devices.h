@@ -1,10 +1,13 @@
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <deque>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -29,6 +32,8 @@ struct Stagehands {
   std::vector<Exposures> exposures;
   int lens_starts = 0;
   int lens_refills = 0;
+  int lens_stops_in_light = 0;
+  std::atomic<int> projector_darkens_ms = 0;
   std::optional<std::uint64_t> lose_trigger;  ///< the one after this many
   bool lens_on = false;
   bool board_armed = false;
@@ -124,6 +129,7 @@ class FakeLens final : public LensDrive {
   }
   bool stop() noexcept override {
     const std::lock_guard lock(all_.mutex);
+    all_.lens_stops_in_light += all_.lens_on && all_.projector_on ? 1 : 0;
     all_.lens_on = false;
     all_.lens_state.fault.reset();
     return true;
@@ -218,6 +224,7 @@ class FakeProjector final : public ProjectorDevice {
     return {};
   }
   bool dark() noexcept override {
+    std::this_thread::sleep_for(std::chrono::milliseconds(all_.projector_darkens_ms));
     const std::lock_guard lock(all_.mutex);
     all_.projector_on = false;
     all_.queue.clear();

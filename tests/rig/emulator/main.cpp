@@ -1,5 +1,6 @@
 #include <poll.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -38,12 +39,16 @@ int run_under_wrapper(char** argv) {
   return 1;
 }
 
+/// Hardware does not wait for a busy machine: before others, where that is allowed. Threads begin as who starts them.
+void prefer_this_process(bool prefer) { (void)::setpriority(PRIO_PROCESS, 0, prefer ? -15 : 0); }
+
 pid_t start(const std::vector<std::string>& command) {
   std::vector<char*> words;
   for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
   const pid_t child = ::fork();
   if (child != 0) return child;
+  prefer_this_process(false);
   ::close(STDIN_FILENO);
   ::execvp(words[0], words.data());
   std::perror(words[0]);
@@ -138,6 +143,7 @@ int main(int argc, char** argv) {
   app.add_option("--height", settings.optics.height_px, "of the projector's pictures")->capture_default_str();
   app.add_option("command", command, "what to run")->required();
   CLI11_PARSE(app, argc, argv);
+  prefer_this_process(true);
   auto generator = focalstage::mcc1208_emulator::Emulator::create();
   if (!generator) return run_under_wrapper(argv);
   Room room(settings, std::move(generator));
