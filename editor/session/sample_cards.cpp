@@ -56,7 +56,7 @@ Result<EyePicture> picture_of(const std::string& name, std::stop_token stop) {
   for (const SampleFile& file : sample->files) {
     const auto bytes = std::as_bytes(std::span(file.bytes.data(), file.bytes.size()));
     if (file.path == name + ".focal") text = file.bytes;
-    files.push_back({std::string(file.path), {}, {bytes.begin(), bytes.end()}});
+    files.push_back({std::string(file.path), {}, SharedBytes(bytes.data(), bytes.data() + bytes.size())});
   }
   const auto loaded = parse_project(text, name);
   if (!loaded) return loaded.fault();

@@ -64,14 +64,15 @@ class MaterialReader {
       if (!read) return read.fault();
       material.texture = *read;
     }
-    result_.invisible.push_back(cut_away(from, index, alpha_of(material.texture.get())));
+    result_.invisible.push_back(cut_away(from, index, alpha_of(material.texture.get()), material.alpha_cutoff));
     result_.layouts.push_back(texture.index < 0 ? TextureLayout{} : texture_layout(texture));
     result_.materials.push_back(std::move(material));
     return {};
   }
 
-  /// Whether its alpha is below the cutoff everywhere. What is neither that nor opaque everywhere is drawn opaque.
-  bool cut_away(const tinygltf::Material& from, std::size_t index, const AlphaRange& of_texture) {
+  /// Whether its alpha is below the cutoff everywhere. A mask that is neither that nor opaque everywhere is cut where
+  /// its texture says; what blends is drawn opaque.
+  bool cut_away(const tinygltf::Material& from, std::size_t index, const AlphaRange& of_texture, double& cutoff) {
     if (from.alphaMode == "OPAQUE") return false;
     const double factor = from.pbrMetallicRoughness.baseColorFactor[3];
     const double least = factor * of_texture.least / 255.0;
@@ -79,6 +80,10 @@ class MaterialReader {
     const bool mask = from.alphaMode == "MASK";
     if (mask && most < from.alphaCutoff) return true;
     if (least >= (mask ? from.alphaCutoff : 1.0)) return false;
+    if (mask) {
+      cutoff = from.alphaCutoff / factor;  // not zero, or most would be
+      return false;
+    }
     result_.findings.push_back(asset_finding(Severity::info, "asset.drawn-opaque", document_.at("materials", index),
                                              "the material lets light through; it is drawn opaque"));
     return false;

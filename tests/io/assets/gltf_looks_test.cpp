@@ -121,15 +121,18 @@ TEST_CASE(
     double cutoff;
     std::size_t parts;
     bool said;
+    double cut_below = 0.0;  ///< of the texture's alpha
   };
   const Case cases[] = {
-      {"MASK", clear_and_full, 1.0, 0.5, 1, true},  // half of it is cut away
-      {"MASK", thin, 1.0, 0.5, 0, false},           // 120/255 < 0.5
-      {"MASK", thin, 1.0, 0.2, 1, false},           // 60/255 > 0.2
-      {"MASK", thin, 0.5, 0.2, 1, true},            // 30/255 < 0.2 < 60/255
-      {"MASK", nullptr, 0.4, 0.5, 0, false},       {"MASK", nullptr, 0.6, 0.5, 1, false},
+      {"MASK", clear_and_full, 1.0, 0.5, 1, false, 0.5},  // half of it is cut away
+      {"MASK", thin, 1.0, 0.5, 0, false},                 // 120/255 < 0.5
+      {"MASK", thin, 1.0, 0.2, 1, false},                 // 60/255 > 0.2
+      {"MASK", thin, 0.5, 0.2, 1, false, 0.4},            // 30/255 < 0.2 < 60/255
+      {"MASK", nullptr, 0.4, 0.5, 0, false},
+      {"MASK", nullptr, 0.6, 0.5, 1, false},
       {"BLEND", nullptr, 1.0, 0.5, 1, false},  // lets nothing through
-      {"BLEND", nullptr, 0.9, 0.5, 1, true},       {"BLEND", thin, 1.0, 0.5, 1, true},
+      {"BLEND", nullptr, 0.9, 0.5, 1, true},
+      {"BLEND", thin, 1.0, 0.5, 1, true},
       {"OPAQUE", thin, 0.1, 0.5, 1, false},
   };
   for (const Case& each : cases) {
@@ -147,6 +150,7 @@ TEST_CASE(
     const MeshFile file = read_whole(gltf);
     CHECK(file.model.nodes[1].parts.size() == each.parts);
     CHECK((finding_of(file, "asset.drawn-opaque") != nullptr) == each.said);
+    CHECK(file.model.materials[0].alpha_cutoff == doctest::Approx(each.cut_below));
   }
 }
 
