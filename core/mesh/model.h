@@ -13,7 +13,7 @@
 
 #include "core/mesh/deform.h"
 #include "core/mesh/mesh.h"
-#include "core/mesh/picture.h"
+#include "core/mesh/stored_picture.h"
 #include "core/mesh/texture.h"
 
 namespace focalstage {
@@ -91,7 +91,7 @@ struct Model {
 /// Every file a project refers to, read once, by the path the project writes.
 struct Assets {
   std::map<std::string, std::shared_ptr<const Model>> models;
-  std::map<std::string, std::shared_ptr<const Picture>> pictures{};  ///< each of a sequence by its own path
+  std::map<std::string, std::shared_ptr<const StoredPicture>> pictures{};  ///< each of a sequence by its own path
 };
 
 }  // namespace focalstage

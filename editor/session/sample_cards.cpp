@@ -25,7 +25,7 @@ struct Described {
 };
 
 /// In the order in which they are best met.
-constexpr std::array<Described, 8> descriptions{{
+constexpr std::array<Described, 9> descriptions{{
     {"first-light", "A near rabbit and a far teapot on a slanted screen. Begin here."},
     {"three-rabbits", "Near, middle and far, each sharp with the real block beside it."},
     {"step-teapot", "A turning teapot across a real step, sharp on both planes."},
@@ -34,6 +34,7 @@ constexpr std::array<Described, 8> descriptions{{
     {"slanted-checker", "A plane that runs through every slice without a seam."},
     {"depth-matching", "The user study: a target to be matched with a real pointer."},
     {"occlusion", "A near card before a far one, right at every focus."},
+    {"moving-pictures", "Pictures on objects: 16 bits, a sequence that plays, a leaf cut out."},
 }};
 
 std::size_t place_of(std::string_view name) {

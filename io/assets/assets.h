@@ -41,7 +41,7 @@ std::set<std::string> asset_files(const Project& project);
 bool has_all(const Assets& assets, const Project& project);
 
 /// Reads everything the project refers to below `folder`. Of pictures only the first bytes are looked at; their pixels
-/// are made when they are asked for (Picture). Faults: "asset.missing", "asset.invalid", "asset.too-large",
+/// are made when they are asked for (StoredPicture). Faults: "asset.missing", "asset.invalid", "asset.too-large",
 /// "asset.sequence" (pictures of different sizes), "image.*", "path.outside".
 Result<LoadedAssets> load_assets(const Project& project, const std::filesystem::path& folder);
 

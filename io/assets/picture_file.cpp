@@ -77,7 +77,7 @@ DecodedPictures& decoded_pictures() {
   return pictures;
 }
 
-class EncodedPicture : public Picture {
+class EncodedPicture : public StoredPicture {
  public:
   explicit EncodedPicture(AssetFile file) : file_(std::move(file)) {
     if (file_.sha256.empty()) file_.sha256 = sha256_hex(file_.bytes);

@@ -3,14 +3,14 @@
 #include <memory>
 
 #include "core/base/result.h"
-#include "core/mesh/picture.h"
+#include "core/mesh/stored_picture.h"
 #include "io/assets/assets.h"
 
 namespace focalstage {
 
 /// A picture of a project, and what its first bytes say.
 struct PictureFile {
-  std::shared_ptr<const Picture> picture;
+  std::shared_ptr<const StoredPicture> picture;
   int width_px = 0;
   int height_px = 0;
 };

@@ -129,7 +129,7 @@ TEST_CASE("appearance decides the finish; light acts on materials that take it, 
 namespace {
 
 /// Remembers what it was asked for; a texture of one pixel, or a fault.
-class OnePixel : public Picture {
+class OnePixel : public StoredPicture {
  public:
   explicit OnePixel(int code) : code_(code) {}
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -7,6 +8,7 @@
 
 #include "core/scene/edit.h"
 #include "core/scene/project.h"
+#include "io/files/files.h"
 #include "tests/io/assets/gltf_writer.h"
 
 using namespace focalstage;
@@ -152,6 +154,17 @@ TEST_CASE(
     CHECK((finding_of(file, "asset.drawn-opaque") != nullptr) == each.said);
     CHECK(file.model.materials[0].alpha_cutoff == doctest::Approx(each.cut_below));
   }
+}
+
+TEST_CASE("a texture keeps the 16 bits of its picture, and its mask counts in them") {
+  const std::filesystem::path fixture = std::filesystem::path(FOCALSTAGE_SOURCE_DIR) / "tests/io/image/fixture";
+  Gltf gltf = square_gltf();
+  const Bytes corners = *read_file(fixture / "corners16.png", 10000);  // alpha 32768, 65535, 1 and 0
+  gltf.json["images"][0] = {{"bufferView", gltf.add_view(corners)}, {"mimeType", "image/png"}};
+  material_of(gltf)["alphaMode"] = "MASK";
+  const auto material = [&] { return read_whole(gltf).model.materials[0]; };
+  CHECK(material().texture->rgba16.at(4) == 0x1234);
+  CHECK(material().alpha_cutoff == 0.5);
 }
 
 TEST_CASE("a camera can be the viewer or a projector: each an edit that a project takes") {

@@ -17,9 +17,9 @@ struct TextureUse {
 };
 
 /// A picture whose pixels are made when they are asked for: of a long sequence only a few are in memory.
-class Picture {
+class StoredPicture {
  public:
-  virtual ~Picture() = default;
+  virtual ~StoredPicture() = default;
 
   /// Its pixels. As long as somebody holds what an earlier call gave, the same picture for the same use is the same
   /// texture at the same address. Any thread. Faults "image.*", with the name of the file.
