@@ -28,7 +28,7 @@ class SolidMeshes {
     for (ViewDrawable& seen : drawables) {
       const auto [entry, fresh] = known_.try_emplace(seen.drawable->mesh, false);
       if (fresh) entry->second = is_solid(*seen.drawable->mesh);
-      seen.solid = entry->second;
+      seen.solid = entry->second && !(seen.drawable->finish.alpha_cutoff > 0.0);  // its inside is seen through cuts
     }
   }
   /// Forgets meshes that nobody else holds.

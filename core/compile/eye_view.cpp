@@ -106,6 +106,7 @@ void look_at_objects(EyeView& out, const Stage& stage, const std::vector<ViewDra
   out.owner.clear();
   out.first.clear();
   out.one_rule = true;
+  out.cuts = false;
   const Rigid world_from_eye = eye.eye_from_world.inverse();
   std::int32_t first = 0;
   for (const ViewDrawable& object : objects) {
@@ -114,6 +115,7 @@ void look_at_objects(EyeView& out, const Stage& stage, const std::vector<ViewDra
     out.rules.push_back(rule_of(stage.objects[object.owner].depth));
     out.shaders.emplace_back(*object.drawable, stage.lights, world_from_eye);
     out.owner.push_back(object.owner);
+    out.cuts = out.cuts || out.shaders.back().cuts();
     out.one_rule = out.one_rule && alike(out.rules.front(), out.rules.back());
   }
   const Box bounds = all_looks(hits, slices, eye.lens_to_pupil_m);

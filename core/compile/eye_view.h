@@ -33,6 +33,7 @@ struct EyeView {
   std::vector<Shader> shaders;       ///< per drawable
   std::vector<std::int32_t> first;   ///< per drawable: its lowest index among the triangles
   std::vector<std::uint32_t> owner;  ///< per drawable: index in the stage's objects
+  bool cuts = false;                 ///< something is cut away by its texture's alpha
   bool one_rule = true;              ///< all rules are alike, none pins a slice
   bool nothing = true;               ///< no triangle can be met
 };

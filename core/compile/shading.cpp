@@ -28,6 +28,13 @@ double received(const Light& light, const glm::dvec3& point, const glm::dvec3& n
   return light.intensity * std::max(0.0, glm::dot(normal, way) / std::sqrt(distance_squared)) / distance_squared;
 }
 
+/// The shares that the triangle's corners have in what the look meets.
+glm::dvec3 weights_at(const ViewTriangle& triangle, double look_x, double look_y) {
+  const glm::dvec3 weights{triangle.edge(0, look_x, look_y), triangle.edge(1, look_x, look_y),
+                           triangle.edge(2, look_x, look_y)};
+  return weights * (1.0 / (weights.x + weights.y + weights.z));
+}
+
 }  // namespace
 
 Shader::Shader(const Drawable& drawable, const std::vector<Light>& lights, const Rigid& world_from_eye)
@@ -40,6 +47,7 @@ Shader::Shader(const Drawable& drawable, const std::vector<Light>& lights, const
   needs_uv_ = has_uv && finish.kind != Finish::Kind::flat;
   has_colors_ = finish.vertex_colors && !drawable.mesh->colors.empty();
   lit_ = finish.lit;
+  cuts_ = needs_uv_ && finish.kind == Finish::Kind::textured && finish.texture && finish.alpha_cutoff > 0.0;
   uniform_ = !lit_ && !needs_uv_ && !has_colors_;
   if (uniform_) uniform_color_ = base(glm::dvec2(0.0));
 }
@@ -92,18 +100,24 @@ std::optional<CheckerPlanes> Shader::checker_planes(const ViewTriangle& triangle
   return planes;
 }
 
-glm::dvec3 Shader::color(const ViewTriangle& triangle, double look_x, double look_y) const {
-  if (uniform_) return uniform_color_;
-  glm::dvec3 weights{triangle.edge(0, look_x, look_y), triangle.edge(1, look_x, look_y),
-                     triangle.edge(2, look_x, look_y)};
-  weights *= 1.0 / (weights.x + weights.y + weights.z);
+glm::dvec2 Shader::uv_at(const ViewTriangle& triangle, const glm::dvec3& weights) const {
   const Mesh& mesh = *drawable_->mesh;
   const glm::uvec3& t = mesh.triangles[triangle.triangle];
-  glm::dvec2 uv(0.0);
-  if (needs_uv_) {
-    uv = mesh.uvs[t.x] * weights.x + mesh.uvs[t.y] * weights.y + mesh.uvs[t.z] * weights.z;
-  }
-  glm::dvec3 own = base(uv);
+  return mesh.uvs[t.x] * weights.x + mesh.uvs[t.y] * weights.y + mesh.uvs[t.z] * weights.z;
+}
+
+bool Shader::is_cut(const ViewTriangle& triangle, double look_x, double look_y) const {
+  if (!cuts_) return false;
+  const glm::dvec2 uv = uv_at(triangle, weights_at(triangle, look_x, look_y));
+  return sample_alpha(*drawable_->finish.texture, uv) < drawable_->finish.alpha_cutoff;
+}
+
+glm::dvec3 Shader::color(const ViewTriangle& triangle, double look_x, double look_y) const {
+  if (uniform_) return uniform_color_;
+  const glm::dvec3 weights = weights_at(triangle, look_x, look_y);
+  const Mesh& mesh = *drawable_->mesh;
+  const glm::uvec3& t = mesh.triangles[triangle.triangle];
+  glm::dvec3 own = base(needs_uv_ ? uv_at(triangle, weights) : glm::dvec2(0.0));
   if (has_colors_) own *= mesh.colors[t.x] * weights.x + mesh.colors[t.y] * weights.y + mesh.colors[t.z] * weights.z;
   if (!lit_) return own;
   const glm::dvec3 look_world = world_from_eye_.direction({look_x, look_y, -1.0});

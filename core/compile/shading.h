@@ -21,6 +21,12 @@ class Shader {
   /// Linear colour where the look (x, y) meets `triangle`, a triangle of this drawable. It can exceed one.
   glm::dvec3 color(const ViewTriangle& triangle, double look_x, double look_y) const;
 
+  /// Whether something of this drawable is cut away by its texture's alpha.
+  bool cuts() const { return cuts_; }
+
+  /// Whether the look (x, y) meets `triangle`, a triangle of this drawable, where it is cut away.
+  bool is_cut(const ViewTriangle& triangle, double look_x, double look_y) const;
+
   /// The squares on `triangle`, where this is an unlit checker of moderate size; none elsewhere.
   std::optional<CheckerPlanes> checker_planes(const ViewTriangle& triangle) const;
   const Finish& finish() const { return drawable_->finish; }
@@ -30,6 +36,7 @@ class Shader {
 
  private:
   glm::dvec3 base(const glm::dvec2& uv) const;
+  glm::dvec2 uv_at(const ViewTriangle& triangle, const glm::dvec3& weights) const;
   glm::dvec3 light(const ViewTriangle& triangle, const glm::dvec3& weights, const glm::dvec3& look_world,
                    double depth_m) const;
 
@@ -41,11 +48,15 @@ class Shader {
   bool has_colors_ = false;
   bool lit_ = false;
   bool uniform_ = false;
+  bool cuts_ = false;
   glm::dvec3 uniform_color_{0.0};
 };
 
 /// A texture at `uv` in linear light: bilinear between texel centres or the texel it falls in, as the texture says;
 /// v = 0 at the bottom row.
 glm::dvec3 sample_texture(const Texture& texture, const glm::dvec2& uv);
+
+/// The texture's alpha there, likewise.
+double sample_alpha(const Texture& texture, const glm::dvec2& uv);
 
 }  // namespace focalstage

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/base/luminance.h"
+#include "core/compile/cuts.h"
 
 namespace focalstage {
 namespace {
@@ -158,6 +159,7 @@ void slice_tile(const SliceRun& run, const EyeView& view, const EyeTile& tile, c
   run.kernel->place(tile.hits, tile.origin_x, tile.origin_y, slice.bend, lens_to_pupil_m, looks);
   TileNearest nearest;
   run.kernel->cover(kernel_view(view.view, view.cells), looks, tile.origin_x, tile.origin_y, nearest);
+  pass_cuts(view, looks, tile.origin_x, tile.origin_y, nearest);
   TileWants wants;
   fill_wants(view, nearest, wants);
   TileWeights weights;

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 
 #include "core/base/luminance.h"
+#include "core/compile/cuts.h"
 #include "core/compile/ray_samples.h"
 
 namespace focalstage {
@@ -69,6 +70,11 @@ struct StackTarget::Seen {
   std::vector<ViewBounds> bounds;
   std::vector<std::uint32_t> items;
   std::uint32_t begin[2] = {0, 0};
+
+  /// The look from the pupil's centre that meets the same point of a candidate.
+  glm::dvec2 from_centre(std::size_t which, const glm::dvec2& look) const {
+    return look + pupil_m * wanted[which].at(look);
+  }
 
   void move_all(const EyeView& all, const glm::dvec2& to) {
     pupil_m = to;
@@ -143,13 +149,21 @@ void StackTarget::add_ray(const StackTile& tile, std::size_t focus, const Seen& 
                         seen.items.data(),      static_cast<float>(all_.view.nearest_m)};
   TileNearest nearest;
   kernel_.cover(view, seen.looks, seen.origin_x, seen.origin_y, nearest);
+  if (all_.cuts) {
+    const auto is_cut = [&](std::uint32_t which, double x, double y) {
+      const ViewTriangle& triangle = all_.view.triangles[(*seen.candidates)[which].triangle];
+      const glm::dvec2 centre = seen.from_centre(which, {x, y});
+      return all_.shaders[triangle.drawable].is_cut(triangle, centre.x, centre.y);
+    };
+    pass_cuts(view, seen.looks, seen.origin_x, seen.origin_y, is_cut, nearest);
+  }
   for (int i = 0; i < tile_samples; ++i) {
     if (nearest.triangle[i] < 0 || (tile.asked >> i & 1) == 0) continue;
     const auto which = static_cast<std::size_t>(nearest.triangle[i]);
     const ViewTriangle& triangle = all_.view.triangles[(*seen.candidates)[which].triangle];
     const glm::dvec2 look{seen.origin_x + static_cast<double>(seen.looks.x[i]),
                           seen.origin_y + static_cast<double>(seen.looks.y[i])};
-    const glm::dvec2 centre = look + seen.pupil_m * seen.wanted[which].at(look);
+    const glm::dvec2 centre = seen.from_centre(which, look);
     const glm::dvec3 color = all_.shaders[triangle.drawable].color(triangle, centre.x, centre.y);
     const std::size_t cell = focus * tile_samples + static_cast<std::size_t>(i);
     if (channels_ == 1) {

@@ -7,6 +7,7 @@
 
 #include <glm/matrix.hpp>
 
+#include "core/compile/cuts.h"
 #include "core/optics/vergence.h"
 
 namespace focalstage {
@@ -25,6 +26,7 @@ bool meet(const EyeView& view, const LookTile& tile, const Kernel& kernel, TileN
   const LocalLooks local = local_looks(x, y, kernel);
   if (!local.any) return false;
   kernel.cover(kernel_view(view.view, view.cells), local.looks, local.origin_x, local.origin_y, nearest);
+  pass_cuts(view, local.looks, local.origin_x, local.origin_y, nearest);
   return true;
 }
 

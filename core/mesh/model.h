@@ -13,6 +13,7 @@
 
 #include "core/mesh/deform.h"
 #include "core/mesh/mesh.h"
+#include "core/mesh/stored_picture.h"
 #include "core/mesh/texture.h"
 
 namespace focalstage {
@@ -23,6 +24,7 @@ struct Material {
   glm::dvec3 base_color{1.0};              ///< linear RGB; multiplies the texture
   std::shared_ptr<const Texture> texture;  ///< none: base_color alone
   bool unlit = false;                      ///< KHR_materials_unlit: lights do not act on it
+  double alpha_cutoff = 0.0;               ///< what is less opaque in the texture is cut away; 0: nothing is
 
   bool operator==(const Material&) const = default;
 };
@@ -89,6 +91,7 @@ struct Model {
 /// Every file a project refers to, read once, by the path the project writes.
 struct Assets {
   std::map<std::string, std::shared_ptr<const Model>> models;
+  std::map<std::string, std::shared_ptr<const StoredPicture>> pictures{};  ///< each of a sequence by its own path
 };
 
 }  // namespace focalstage

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
 
 namespace focalstage {
 namespace {
@@ -22,13 +23,47 @@ int wrapped(std::int64_t i, int count, Wrap wrap) {
   return static_cast<int>(within < count ? within : period - 1 - within);
 }
 
-glm::dvec3 texel(const Texture& texture, std::int64_t column, std::int64_t row) {
+/// A texel's red, green, blue and alpha, 0 to 1, as the file has them.
+glm::dvec4 numbers(const Texture& texture, std::int64_t column, std::int64_t row) {
   const int x = wrapped(column, texture.width_px, texture.wrap_u);
   const int y = wrapped(row, texture.height_px, texture.wrap_v);
-  const std::uint8_t* rgba =
-      &texture.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(texture.width_px) +
-                         static_cast<std::size_t>(x))];
-  return {linear_from_srgb(rgba[0] / 255.0), linear_from_srgb(rgba[1] / 255.0), linear_from_srgb(rgba[2] / 255.0)};
+  const std::size_t at =
+      4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(texture.width_px) + static_cast<std::size_t>(x));
+  glm::dvec4 share(0.0);
+  for (std::size_t i = 0; i < 4; ++i) {
+    share[static_cast<int>(i)] =
+        texture.rgba16.empty() ? texture.rgba[at + i] / 255.0 : texture.rgba16[at + i] / 65535.0;
+  }
+  return share;
+}
+
+/// The texel in linear light, with its alpha.
+glm::dvec4 texel(const Texture& texture, std::int64_t column, std::int64_t row) {
+  glm::dvec4 light = numbers(texture, column, row);
+  if (texture.color_space == ColorSpace::linear) return light;
+  for (int i = 0; i < 3; ++i) light[i] = linear_from_srgb(light[i]);
+  return light;
+}
+
+glm::dvec4 light_and_alpha(const Texture& texture, const glm::dvec2& uv) {
+  if (texture.width_px < 1 || texture.height_px < 1) return glm::dvec4(1.0);
+  if (texture.magnify == Magnify::nearest) {
+    return texel(texture, static_cast<std::int64_t>(std::floor(uv.x * texture.width_px)),
+                 static_cast<std::int64_t>(std::floor((1.0 - uv.y) * texture.height_px)));
+  }
+  const double x = uv.x * texture.width_px - 0.5;
+  const double y = (1.0 - uv.y) * texture.height_px - 0.5;
+  const double left = std::floor(x);
+  const double top = std::floor(y);
+  const auto column = static_cast<std::int64_t>(left);
+  const auto row = static_cast<std::int64_t>(top);
+  const double right_share = x - left;
+  const double lower_share = y - top;
+  const glm::dvec4 upper =
+      (1.0 - right_share) * texel(texture, column, row) + right_share * texel(texture, column + 1, row);
+  const glm::dvec4 lower =
+      (1.0 - right_share) * texel(texture, column, row + 1) + right_share * texel(texture, column + 1, row + 1);
+  return (1.0 - lower_share) * upper + lower_share * lower;
 }
 
 template <class T>
@@ -78,24 +113,16 @@ glm::dvec3 normal_at(const Drawable& drawable, const glm::uvec3& corner, const g
 }  // namespace
 
 glm::dvec3 texture_colour(const Texture& texture, const glm::dvec2& uv) {
-  if (texture.width_px < 1 || texture.height_px < 1) return glm::dvec3(1.0);
-  if (texture.magnify == Magnify::nearest) {
-    return texel(texture, static_cast<std::int64_t>(std::floor(uv.x * texture.width_px)),
-                 static_cast<std::int64_t>(std::floor((1.0 - uv.y) * texture.height_px)));
-  }
-  const double x = uv.x * texture.width_px - 0.5;
-  const double y = (1.0 - uv.y) * texture.height_px - 0.5;
-  const double left = std::floor(x);
-  const double top = std::floor(y);
-  const auto column = static_cast<std::int64_t>(left);
-  const auto row = static_cast<std::int64_t>(top);
-  const double right_share = x - left;
-  const double lower_share = y - top;
-  const glm::dvec3 upper =
-      (1.0 - right_share) * texel(texture, column, row) + right_share * texel(texture, column + 1, row);
-  const glm::dvec3 lower =
-      (1.0 - right_share) * texel(texture, column, row + 1) + right_share * texel(texture, column + 1, row + 1);
-  return (1.0 - lower_share) * upper + lower_share * lower;
+  return glm::dvec3(light_and_alpha(texture, uv));
+}
+
+double texture_alpha(const Texture& texture, const glm::dvec2& uv) { return light_and_alpha(texture, uv).a; }
+
+bool cut_away(const Drawable& drawable, std::size_t triangle, const glm::dvec3& shares) {
+  const Finish& finish = drawable.finish;
+  if (finish.kind != Finish::Kind::textured || !finish.texture || drawable.mesh->uvs.empty()) return false;
+  const glm::dvec2 uv = blend(drawable.mesh->uvs, drawable.mesh->triangles[triangle], shares);
+  return texture_alpha(*finish.texture, uv) < finish.alpha_cutoff;
 }
 
 glm::dvec3 colour_at(const Drawable& drawable, std::size_t triangle, const glm::dvec3& shares,

@@ -15,6 +15,12 @@ namespace focalstage {
 /// bottom of the picture.
 glm::dvec3 texture_colour(const Texture& texture, const glm::dvec2& uv);
 
+/// Alpha of `texture` at `uv`, found like the colour.
+double texture_alpha(const Texture& texture, const glm::dvec2& uv);
+
+/// Whether a drawable's face is cut away by its texture's alpha at the point that its corners share by `shares`.
+bool cut_away(const Drawable& drawable, std::size_t triangle, const glm::dvec3& shares);
+
 /// Linear colour of a drawable's face at the point that its corners share by `shares`, seen from `viewer_m` (world).
 glm::dvec3 colour_at(const Drawable& drawable, std::size_t triangle, const glm::dvec3& shares,
                      const glm::dvec3& viewer_m, const std::vector<Light>& lights);

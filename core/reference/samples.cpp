@@ -79,7 +79,11 @@ std::optional<SliceSample> Samples::slice(Side side, const EyePoint& eye, std::s
   const std::optional<glm::dvec2> towards = look(eye, n);
   if (!towards) return std::nullopt;
   const View& view = objects_[index_of(side)];
-  const std::optional<Sighting> met = view.sight.nearest(*towards);
+  const auto solid = [&](const Sighting& seen) {
+    const Face& hit = view.faces[seen.triangle];
+    return !cut_away(stage_->objects[hit.thing].drawables[hit.drawable], hit.triangle, seen.shares);
+  };
+  const std::optional<Sighting> met = view.sight.nearest(*towards, solid);
   if (!met) return std::nullopt;
 
   const Face& face = view.faces[met->triangle];

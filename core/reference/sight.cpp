@@ -43,6 +43,7 @@ struct Query : RTCIntersectContext {
   const std::vector<SeenTriangle>* triangles = nullptr;
   double nearest_m = 0.0;
   glm::dvec2 look{0.0};
+  const std::function<bool(const Sighting&)>* solid = nullptr;
   std::optional<Sighting> best;
 };
 
@@ -70,7 +71,7 @@ void meet(const RTCIntersectFunctionNArguments* asked) {
   seen->triangle = asked->primID;
   const bool nearer = !query.best || seen->depth_m < query.best->depth_m ||
                       (seen->depth_m == query.best->depth_m && seen->triangle < query.best->triangle);
-  if (!nearer) return;
+  if (!nearer || (*query.solid && !(*query.solid)(*seen))) return;
   query.best = seen;
   RTCRayHit& walk = *reinterpret_cast<RTCRayHit*>(asked->rayhit);
   walk.ray.tfar = std::nextafter(static_cast<float>(seen->depth_m) * (1.0f + 1e-6f), infinity);  // keeps ties in reach
@@ -115,13 +116,15 @@ Result<Sight> Sight::of(std::vector<SeenTriangle> triangles, double nearest_m) {
   return Sight(state);
 }
 
-std::optional<Sighting> Sight::nearest(const glm::dvec2& look) const {
+std::optional<Sighting> Sight::nearest(const glm::dvec2& look,
+                                       const std::function<bool(const Sighting&)>& solid) const {
   if (state_->triangles.empty() || !std::isfinite(look.x) || !std::isfinite(look.y)) return std::nullopt;
   Query query;
   rtcInitIntersectContext(&query);
   query.triangles = &state_->triangles;
   query.nearest_m = state_->nearest_m;
   query.look = look;
+  query.solid = &solid;
   RTCRayHit walk{};
   walk.ray.dir_x = static_cast<float>(look.x);
   walk.ray.dir_y = static_cast<float>(look.y);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -31,8 +32,8 @@ class Sight {
   static Result<Sight> of(std::vector<SeenTriangle> triangles, double nearest_m);
 
   /// `look` is a position in the tangent plane: x and y over the distance along -Z. Of triangles at the same depth the
-  /// first in the list is seen.
-  std::optional<Sighting> nearest(const glm::dvec2& look) const;
+  /// first in the list is seen. What `solid` denies, if given, is not there.
+  std::optional<Sighting> nearest(const glm::dvec2& look, const std::function<bool(const Sighting&)>& solid = {}) const;
 
  private:
   struct State;

@@ -4,26 +4,48 @@
 
 namespace focalstage {
 
+namespace {
+
+/// Reads the look that stands under `key`, if it is there.
+template <class Look, class Read>
+bool read_look(Reading& reading, const Value& value, std::string_view key, Appearance& out, Read&& read) {
+  const Value* there = value.find(key);
+  if (!there) return true;
+  const Reading::Step step(reading, key);
+  return read(*there, out.emplace<Look>());
+}
+
+bool read_looks(Reading& reading, const Value& value, Appearance& out) {
+  const auto unlit = [&](const Value& there, UnlitAppearance& look) {
+    return Codec<glm::dvec3>::read(reading, there, look.color, fraction);
+  };
+  const auto checker = [&](const Value& there, CheckerAppearance& look) {
+    return Codec<CheckerAppearance>::read(reading, there, look, {});
+  };
+  const auto image = [&](const Value& there, ImageAppearance& look) {
+    return Codec<ImageAppearance>::read(reading, there, look, {});
+  };
+  return read_look<UnlitAppearance>(reading, value, "unlit", out, unlit) &&
+         read_look<CheckerAppearance>(reading, value, "checker", out, checker) &&
+         read_look<ImageAppearance>(reading, value, "image", out, image);
+}
+
+}  // namespace
+
 bool AppearanceCodec::read(Reading& reading, const Value& value, Object& out, const Rule&) {
   if (!value.object()) return reading.wrong_type(value, "an object");
-  const Value* unlit = value.find("unlit");
-  const Value* checker = value.find("checker");
-  if (unlit && checker) {
+  const auto both = [&](std::string_view one, std::string_view other) {
+    return value.find(one) != nullptr && value.find(other) != nullptr;
+  };
+  if (both("unlit", "checker")) {
     return reading.fail("project.conflict", "is both unlit and a checker", "remove one of the two");
   }
+  if (both("unlit", "image") || both("checker", "image")) {
+    return reading.fail("project.conflict", "is an image and something else", "remove one of the two");
+  }
   out.appearance = MaterialAppearance{};
-  if (unlit) {
-    const Reading::Step step(reading, "unlit");
-    if (!Codec<glm::dvec3>::read(reading, *unlit, out.appearance.emplace<UnlitAppearance>().color, fraction)) {
-      return false;
-    }
-  }
-  if (checker) {
-    const Reading::Step step(reading, "checker");
-    auto& squares = out.appearance.emplace<CheckerAppearance>();
-    if (!Codec<CheckerAppearance>::read(reading, *checker, squares, {})) return false;
-  }
-  keep_unknown(reading, value, {"unlit", "checker"}, out.appearance_unknown);
+  if (!read_looks(reading, value, out.appearance)) return false;
+  keep_unknown(reading, value, {"unlit", "checker", "image"}, out.appearance_unknown);
   return true;
 }
 
@@ -35,6 +57,9 @@ Value AppearanceCodec::write(const Object& object) {
   if (const auto* checker = std::get_if<CheckerAppearance>(&object.appearance)) {
     written.emplace_back("checker", Codec<CheckerAppearance>::write(*checker));
   }
+  if (const auto* image = std::get_if<ImageAppearance>(&object.appearance)) {
+    written.emplace_back("image", Codec<ImageAppearance>::write(*image));
+  }
   write_unknown(written, object.appearance_unknown);
   return Value(std::move(written));
 }
@@ -42,6 +67,7 @@ Value AppearanceCodec::write(const Object& object) {
 void AppearanceCodec::keys(KeyList& list) {
   list.add("unlit", [](KeyList&) {});
   list.add("checker", [](KeyList& below) { list_fields<CheckerAppearance>(below); });
+  list.add("image", [](KeyList& below) { list_fields<ImageAppearance>(below); });
 }
 
 bool Table<Light>::check(Reading& reading, const Light& light) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/scene/fields_image.h"
 #include "core/scene/fields_placement.h"
 #include "core/scene/mesh_codec.h"
 
@@ -14,7 +15,7 @@ struct Table<CheckerAppearance> {
                       field("b", at(&CheckerAppearance::b), Presence::always, fraction));
 };
 
-/// {"unlit": ..} or {"checker": ..}; without either, the material of the file.
+/// {"unlit": ..}, {"checker": ..} or {"image": ..}; without any, the material of the file.
 struct AppearanceCodec {
   static bool read(Reading& reading, const Value& value, Object& out, const Rule& rule);
   static Value write(const Object& object);

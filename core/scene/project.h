@@ -12,6 +12,7 @@
 
 #include "core/base/rigid.h"
 #include "core/base/sides.h"
+#include "core/mesh/texture.h"
 #include "core/scene/process.h"
 #include "core/scene/value.h"
 
@@ -205,11 +206,32 @@ struct CheckerAppearance {
   Unknown unknown{};
   bool operator==(const CheckerAppearance&) const = default;
 };
+
+/// What a sequence of pictures shows once all of them were shown. Before its start all but `once` show the first.
+enum class SequenceEnd { loop, hold, once, ping_pong };
+
+/// A picture file over the mesh's UV, or a sequence of them on the project's clock (core/scene/sequence.h).
+struct ImageAppearance {
+  std::string file;      ///< "poster.png"; of a sequence "fire_####.png", where each # stands for a digit
+  int count = 0;         ///< pictures of the sequence; 0: no sequence
+  int first = 1;         ///< the number in the first one's name
+  double rate_hz = 0.0;  ///< pictures per second; of a sequence only
+  double start_s = 0.0;  ///< when the first one comes, on the project's clock
+  SequenceEnd end = SequenceEnd::loop;
+  Wrap wrap = Wrap::clamp;  ///< along u and v
+  Magnify filter = Magnify::linear;
+  ColorSpace color_space = ColorSpace::srgb;
+  bool lit = false;                    ///< whether the project's lights act on it
+  std::optional<double> alpha_cutoff;  ///< what is less opaque is cut away; without: all of it is drawn opaque
+  Unknown unknown{};
+  bool operator==(const ImageAppearance&) const = default;
+};
+
 /// The material of the file, lit by the project's lights.
 struct MaterialAppearance {
   bool operator==(const MaterialAppearance&) const = default;
 };
-using Appearance = std::variant<MaterialAppearance, UnlitAppearance, CheckerAppearance>;
+using Appearance = std::variant<MaterialAppearance, UnlitAppearance, CheckerAppearance, ImageAppearance>;
 
 enum class DepthMode { placed, fixed, offset, slice };
 
@@ -241,7 +263,7 @@ struct Object {
   Placement placement;
   double scale = 1.0;
   Appearance appearance;
-  Unknown appearance_unknown{};  ///< beside "unlit" or "checker"
+  Unknown appearance_unknown{};  ///< beside "unlit", "checker" or "image"
   Depth depth;
   std::string group;
   bool hidden = false;

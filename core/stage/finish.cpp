@@ -1,5 +1,7 @@
 #include "core/stage/finish.h"
 
+#include "core/scene/sequence.h"
+
 namespace focalstage {
 namespace {
 
@@ -12,12 +14,37 @@ Finish finish_from(const Material* material, bool has_lights) {
   finish.texture = material->texture;
   finish.kind = material->texture ? Finish::Kind::textured : Finish::Kind::flat;
   finish.lit = has_lights && !material->unlit;
+  if (material->texture) finish.alpha_cutoff = material->alpha_cutoff;
   return finish;
 }
 
 }  // namespace
 
-Finish finish_of(const Appearance& appearance, const Material* material, bool has_lights) {
+Result<std::shared_ptr<const Texture>> picture_of(const Appearance& appearance, const Assets& assets, double time_s) {
+  const auto* image = std::get_if<ImageAppearance>(&appearance);
+  const std::optional<int> index = image ? picture_at(*image, time_s) : std::nullopt;
+  if (!index) return std::shared_ptr<const Texture>();
+  const std::string file = picture_file(*image, *index);
+  const auto found = assets.pictures.find(file);
+  if (found == assets.pictures.end() || !found->second) {
+    return Fault{"stage.asset-missing", "/image/file", "the picture " + file + " is not among the loaded assets",
+                 "put it beside the project"};
+  }
+  auto texture = found->second->texture({image->wrap, image->filter, image->color_space});
+  if (texture) return texture;
+  Fault fault = texture.fault();
+  if (fault.message.find(fault.where) == std::string::npos) fault.message = fault.where + ": " + fault.message;
+  fault.where = "/image/file";
+  return fault;
+}
+
+bool shows_nothing(const Appearance& appearance, double time_s) {
+  const auto* image = std::get_if<ImageAppearance>(&appearance);
+  return image != nullptr && !picture_at(*image, time_s);
+}
+
+Finish finish_of(const Appearance& appearance, const Material* material, bool has_lights,
+                 const std::shared_ptr<const Texture>& picture) {
   Finish finish;
   if (const auto* unlit = std::get_if<UnlitAppearance>(&appearance)) {
     finish.a = unlit->color;
@@ -26,6 +53,11 @@ Finish finish_of(const Appearance& appearance, const Material* material, bool ha
     finish.a = checker->a;
     finish.b = checker->b;
     finish.squares = checker->squares;
+  } else if (const auto* image = std::get_if<ImageAppearance>(&appearance)) {
+    finish.kind = Finish::Kind::textured;
+    finish.texture = picture;
+    finish.lit = has_lights && image->lit;
+    finish.alpha_cutoff = picture ? image->alpha_cutoff.value_or(0.0) : 0.0;
   } else {
     finish = finish_from(material, has_lights);
   }

@@ -23,11 +23,14 @@ struct Setting {
 };
 
 /// The look of a thing's parts; without one (a surface) every part is plain.
-using Look = const Appearance*;
+struct Look {
+  const Appearance* appearance = nullptr;
+  std::shared_ptr<const Texture> picture{};
+};
 
-Finish finish_for(Look look, const Material* material, const Mesh& mesh, const Setting& setting) {
-  if (look == nullptr) return {};
-  Finish finish = finish_of(*look, material, setting.has_lights);
+Finish finish_for(const Look& look, const Material* material, const Mesh& mesh, const Setting& setting) {
+  if (look.appearance == nullptr) return {};
+  Finish finish = finish_of(*look.appearance, material, setting.has_lights, look.picture);
   finish.vertex_colors = finish.vertex_colors && !mesh.colors.empty();
   return finish;
 }
@@ -75,7 +78,8 @@ class StoodModel {
 };
 
 Result<std::vector<Drawable>> model_drawables(const Model& model, const MeshSource& source, double scale,
-                                              const glm::dmat4& world_from_thing, Look look, const Setting& setting) {
+                                              const glm::dmat4& world_from_thing, const Look& look,
+                                              const Setting& setting) {
   StoodModel stood(model, setting.time_s);
   std::vector<Drawable> drawables;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
@@ -100,7 +104,7 @@ Result<std::vector<Drawable>> model_drawables(const Model& model, const MeshSour
 
 /// `scale`: of the thing, which is in `world_from_thing` already.
 Result<std::vector<Drawable>> drawables_of(const MeshSource& source, double scale, const glm::dmat4& world_from_thing,
-                                           Look look, const Setting& setting) {
+                                           const Look& look, const Setting& setting) {
   if (const auto* file = std::get_if<FileMesh>(&source.shape)) {
     const auto found = setting.assets.models.find(file->file);
     if (found == setting.assets.models.end() || !found->second) {
@@ -120,9 +124,18 @@ Result<std::vector<Drawable>> drawables_of(const MeshSource& source, double scal
   return std::vector<Drawable>{{*mesh, world_from_thing, finish_for(look, nullptr, **mesh, setting)}};
 }
 
+/// How an object looks at the moment, `index` being its place in the project's list.
+Result<Look> look_of(const Object& object, std::size_t index, const Setting& setting) {
+  auto picture = picture_of(object.appearance, setting.assets, setting.time_s);
+  if (picture) return Look{&object.appearance, *std::move(picture)};
+  Fault fault = picture.fault();
+  fault.where = "/objects/" + std::to_string(index) + "/appearance" + fault.where;
+  return fault;
+}
+
 /// A surface or an object, but for what only one of them has.
 template <class Staged, class Thing>
-Result<Staged> stand_up(const Thing& thing, std::size_t index, const std::string& list, Look look,
+Result<Staged> stand_up(const Thing& thing, std::size_t index, const std::string& list, const Look& look,
                         const Setting& setting, Rigid Staged::*world_from_thing) {
   Staged staged;
   staged.name = thing.name;
@@ -161,8 +174,7 @@ Result<Stage> stage(const Project& project, const Assets& assets, double time_s)
   for (std::size_t i = 0; i < project.surfaces.size(); ++i) {
     const Surface& surface = project.surfaces[i];
     if (surface.hidden) continue;
-    Result<StagedSurface> staged =
-        stand_up(surface, i, "surfaces", nullptr, setting, &StagedSurface::world_from_surface);
+    Result<StagedSurface> staged = stand_up(surface, i, "surfaces", {}, setting, &StagedSurface::world_from_surface);
     if (!staged) return staged.fault();
     staged->illumination = surface.illumination;
     stage.surfaces.push_back(*std::move(staged));
@@ -170,9 +182,11 @@ Result<Stage> stage(const Project& project, const Assets& assets, double time_s)
   for (std::size_t i = 0; i < project.objects.size(); ++i) {
     const Object& object = project.objects[i];
     if (object.hidden) continue;
-    Result<StagedObject> staged =
-        stand_up(object, i, "objects", &object.appearance, setting, &StagedObject::world_from_object);
+    const Result<Look> look = look_of(object, i, setting);
+    if (!look) return look.fault();
+    Result<StagedObject> staged = stand_up(object, i, "objects", *look, setting, &StagedObject::world_from_object);
     if (!staged) return staged.fault();
+    if (shows_nothing(object.appearance, time_s)) staged->drawables.clear();
     staged->depth = object.depth;
     stage.objects.push_back(*std::move(staged));
   }

@@ -26,6 +26,7 @@ struct Finish {
   std::shared_ptr<const Texture> texture;  ///< textured
   bool lit = false;                        ///< whether the stage's lights act on it
   bool vertex_colors = false;              ///< whether the mesh's colours multiply it
+  double alpha_cutoff = 0.0;               ///< textured: what is less opaque is cut away; 0: nothing is
 
   bool operator==(const Finish&) const = default;
 };
@@ -70,8 +71,9 @@ struct Stage {
   std::vector<Light> lights;
 };
 
-/// Stands the project up at `time_s`. Faults: "stage.asset-missing", "stage.mesh-size", "process.*", with a JSON
-/// pointer. Primitive meshes are made once per shape and shared between calls.
+/// Stands the project up at `time_s`. Faults: "stage.asset-missing", "stage.mesh-size", "process.*", "image.*", with a
+/// JSON pointer. An object whose sequence of pictures shows nothing at that time stands there without drawables.
+/// Primitive meshes are made once per shape and shared between calls.
 Result<Stage> stage(const Project& project, const Assets& assets, double time_s);
 
 /// The pose of a placement at `time_s`: before the first key the first, after the last the last; linear and slerp

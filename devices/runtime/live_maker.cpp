@@ -19,20 +19,12 @@ Status fit_to_compile(const Project& project) {
   return Fault{"project.no-projector", "/projectors", "the project has no projector", "add one"};
 }
 
-template <class Things>
-bool all_read(const Things& things, const Assets& assets) {
-  return std::ranges::all_of(things, [&](const auto& thing) {
-    const auto* file = std::get_if<FileMesh>(&thing.mesh.shape);
-    return file == nullptr || assets.models.contains(file->file);
-  });
-}
-
 }  // namespace
 
-/// Reads the meshes where the files are others than before, or a thing refers to one that nothing referred to.
+/// Reads meshes and pictures where the files are others than before, or a thing refers to one that nothing referred to.
 Status LiveMaker::read_assets(const LiveSnapshot& snapshot) {
   const Project& project = *snapshot.project;
-  if (snapshot.files == files_ && all_read(project.surfaces, assets_) && all_read(project.objects, assets_)) return {};
+  if (snapshot.files == files_ && has_all(assets_, project)) return {};
   std::vector<AssetFile> files;
   for (const auto& [path, sha256] : snapshot.files) {
     Result<std::vector<std::byte>> bytes = store_.read(sha256);

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,22 +15,32 @@
 
 namespace focalstage {
 
-/// The mesh files a project refers to, each read once and again when it changed on disk. What cannot be read is a
+/// What a project refers to: a mesh file, a picture, or the pictures of a sequence.
+struct AssetReference {
+  std::string file;  ///< as the project writes it
+  bool picture = false;
+  int first = 0;
+  int count = 0;  ///< of a sequence
+
+  auto operator<=>(const AssetReference&) const = default;
+};
+
+/// The files a project refers to, each read once and again when it changed on disk. What cannot be read is a
 /// finding, and the rest of the project goes on without it.
 class AssetShelf {
  public:
   explicit AssetShelf(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  /// What was read of one reference: a model, or why there is none.
+  /// What was read of one reference, or why there is nothing.
   struct Entry;
-  using Read = std::map<std::string, Entry>;
+  using Read = std::map<AssetReference, Entry>;
 
   /// The references of `project` that nobody has read yet. Asks no disk: cheap enough for every step of a drag.
-  std::vector<std::string> unread(const Project& project) const;
+  std::vector<AssetReference> unread(const Project& project) const;
   /// Those, and the ones that changed on disk since they were read.
-  std::vector<std::string> wanted(const Project& project) const;
+  std::vector<AssetReference> wanted(const Project& project) const;
   /// Reads them. Any thread.
-  static Read read(const std::filesystem::path& folder, const std::vector<std::string>& references);
+  static Read read(const std::filesystem::path& folder, const std::vector<AssetReference>& references);
   void put(Read read);
 
   /// All three at once. True if `assets` changed.
@@ -48,7 +60,7 @@ class AssetShelf {
     bool operator==(const Stamp&) const = default;
   };
   static Stamp stamp_of(const std::filesystem::path& file);
-  static Entry read_one(const std::filesystem::path& folder, const std::string& reference);
+  static Entry read_one(const std::filesystem::path& folder, const AssetReference& reference);
   bool is_current(const Entry& entry) const;
 
   std::filesystem::path folder_;
@@ -58,11 +70,14 @@ class AssetShelf {
 
 struct AssetShelf::Entry {
   std::map<std::filesystem::path, Stamp> files;  ///< that it was made of
-  std::shared_ptr<const Model> model;            ///< null: `fault` says why
-  Fault fault;
+  Assets assets;                                 ///< what of it is there
+  std::optional<Fault> fault;                    ///< why there is nothing
 };
 
-/// What `load_assets` makes of a project that refers to nothing but the mesh file `reference`.
-Result<LoadedAssets> load_mesh_file(const std::string& reference, const std::filesystem::path& folder);
+/// Everything a project refers to, each once.
+std::set<AssetReference> references_in(const Project& project);
+
+/// What `load_assets` makes of a project that refers to nothing else.
+Result<LoadedAssets> load_reference(const AssetReference& reference, const std::filesystem::path& folder);
 
 }  // namespace focalstage

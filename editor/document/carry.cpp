@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <system_error>
 
+#include "core/scene/sequence.h"
 #include "editor/document/document.h"
 #include "editor/document/recent.h"
 #include "io/assets/image_plane.h"
@@ -35,11 +36,11 @@ fs::path target_file(const fs::path& asked) {
   return folder / (folder.filename().string() + ".focal");
 }
 
-/// Every file the project's meshes are made of, as far as it can be read.
+/// Every file the project is made of, as far as it can be read.
 std::vector<AssetFile> files_of(const Project& project, const fs::path& folder) {
   std::vector<AssetFile> files;
-  for (const std::string& reference : mesh_files(project)) {
-    auto loaded = load_mesh_file(reference, folder);
+  for (const AssetReference& reference : references_in(project)) {
+    auto loaded = load_reference(reference, folder);
     if (!loaded) continue;
     for (AssetFile& file : loaded->files) {
       const auto same = [&](const AssetFile& other) { return other.path == file.path; };
@@ -61,7 +62,7 @@ fs::path place_for(const fs::path& folder, const std::string& name, const std::v
     if (!fs::exists(folder / place, none)) return place;
     if (!alone) continue;
     const auto there = read_file(folder / place, files[0].bytes.size());
-    if (there && *there == files[0].bytes) return place;
+    if (there && files[0].bytes == *there) return place;
   }
 }
 
@@ -78,12 +79,50 @@ Result<std::string> bring_in_picture(const fs::path& file, const fs::path& proje
   return files[0].path;
 }
 
+/// The name of a file without its number, and how many digits that has.
+struct NumberedName {
+  std::string before;
+  std::string digits;
+};
+
+NumberedName numbered_name(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const std::size_t last = stem.find_last_not_of("0123456789");
+  const std::size_t begin = last == std::string::npos ? 0 : last + 1;
+  return {stem.substr(0, begin), stem.substr(begin)};
+}
+
+/// "fire" of fire_0001.png.
+std::string series_name(const fs::path& file) {
+  std::string name = numbered_name(file).before;
+  while (!name.empty() && (name.back() == '_' || name.back() == '-' || name.back() == '.')) name.pop_back();
+  return name.empty() ? "pictures" : name;
+}
+
+/// The picture, as the first of a sequence where it has a number and the next one is there.
+ImageAppearance numbered(const fs::path& file) {
+  ImageAppearance look;
+  look.file = file.filename().string();
+  const NumberedName name = numbered_name(file);
+  if (name.digits.empty() || name.digits.size() > 9 || name.before.find('#') != std::string::npos) return look;
+  ImageAppearance series = look;
+  series.file = name.before + std::string(name.digits.size(), '#') + file.extension().string();
+  series.first = std::stoi(name.digits);
+  constexpr int most_pictures = 10'000;
+  series.count = most_pictures;
+  std::error_code none;
+  int count = 1;
+  while (count < most_pictures && fs::exists(file.parent_path() / picture_file(series, count), none)) ++count;
+  series.count = count;
+  return count > 1 ? series : look;
+}
+
 }  // namespace
 
 Result<std::string> bring_in(const fs::path& file, const fs::path& project_folder) {
   if (is_picture(file)) return bring_in_picture(file, project_folder);
   const std::string name = file.filename().string();
-  auto loaded = load_mesh_file(name, fs::absolute(file).parent_path());
+  auto loaded = load_reference({name}, fs::absolute(file).parent_path());
   if (!loaded) {
     Fault fault = loaded.fault();
     if (fault.where.starts_with("/objects/0")) fault.where = file.string();
@@ -94,6 +133,24 @@ Result<std::string> bring_in(const fs::path& file, const fs::path& project_folde
   for (AssetFile& piece : loaded->files) piece.path = (alone ? place : place / piece.path).string();
   if (Status written = write_files(loaded->files, project_folder); !written) return written.fault();
   return (alone ? place : place / name).generic_string();
+}
+
+Result<ImageAppearance> bring_in_look(const fs::path& file, const fs::path& project_folder, double rate_hz) {
+  if (!is_picture(file)) {
+    return Fault{"image.unsupported", file.string(), "this is neither a PNG nor a JPEG", "export it as one of them"};
+  }
+  ImageAppearance look = numbered(file);
+  if (look.count > 0) look.rate_hz = rate_hz;
+  Project only;
+  only.objects.emplace_back().appearance = look;
+  auto loaded = load_assets(only, fs::absolute(file).parent_path());
+  if (!loaded) return loaded.fault();
+  const fs::path place = place_for(project_folder, look.count > 0 ? series_name(file) : look.file, loaded->files);
+  const bool alone = loaded->files.size() == 1;
+  for (AssetFile& piece : loaded->files) piece.path = (alone ? place : place / piece.path).string();
+  if (Status written = write_files(loaded->files, project_folder); !written) return written.fault();
+  look.file = (alone ? place : place / look.file).generic_string();
+  return look;
 }
 
 Status Document::save_as(const fs::path& asked) {

@@ -103,6 +103,11 @@ class Document {
 /// Returns the reference to write into the project. Any thread. Faults "asset.*", "file.*".
 Result<std::string> bring_in(const std::filesystem::path& file, const std::filesystem::path& project_folder);
 
+/// The same for a picture as the look of an object. Where its name ends in a number and the next ones lie beside it,
+/// they come along as a sequence, `rate_hz` of them a second.
+Result<ImageAppearance> bring_in_look(const std::filesystem::path& file, const std::filesystem::path& project_folder,
+                                      double rate_hz);
+
 /// Journals that nobody holds, of projects that were open when something went wrong; the newest first.
 std::vector<Recovery> recoveries(const UserFolders& folders, const std::vector<std::filesystem::path>& recent);
 

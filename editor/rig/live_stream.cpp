@@ -29,7 +29,7 @@ Status LiveStream::show(const LiveWish& wish) {
   }
   if (wish.revision == sent_.revision) return {};
   std::vector<AssetFile> fresh;
-  if (mesh_files(*wish.project) != mesh_files(*sent_.project)) {
+  if (asset_files(*wish.project) != asset_files(*sent_.project)) {
     auto loaded = load_assets(*wish.project, wish.folder);
     if (!loaded) return loaded.fault();
     for (AssetFile& file : loaded->files) {

@@ -67,7 +67,7 @@ Status collect(Session& session, const Value&) {
   auto& state = SessionAccess::of(session);
   const std::vector<Finding> missing = state.document->shelf().findings(state.project());
   if (!missing.empty()) return Fault{missing[0].code, missing[0].where, missing[0].message, "import it again"};
-  const std::size_t files = mesh_files(state.project()).size();
+  const std::size_t files = asset_files(state.project()).size();
   state.say(LogLine::Kind::good,
             "All " + std::to_string(files) + " files travel in " + state.document->folder().string());
   return {};

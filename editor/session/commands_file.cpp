@@ -2,6 +2,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/scene/fields_image.h"
 #include "editor/session/command_list.h"
 #include "editor/session/edits.h"
 #include "io/assets/image_plane.h"
@@ -134,21 +135,48 @@ void add_imported(Session::State& state, const std::string& reference, const Thi
   if (state.apply("Import " + name, {add_edit("objects", name, item)})) state.selection.things = {{"objects", name}};
 }
 
+/// A picture, or the sequence it belongs to, as the look of an object.
+void import_look(Session::State& state, const fs::path& file, const std::string& object) {
+  const double rate_hz = state.project().frames.rate_hz;
+  state.jobs.start(
+      "Import " + file.filename().string(),
+      [&state, file, object, rate_hz, folder = state.document->folder()](const Jobs::Progress&, std::stop_token) {
+        auto look = std::make_shared<Result<ImageAppearance>>(bring_in_look(file, folder, rate_hz));
+        return [&state, look, object, folder] {
+          if (!state.document || state.document->folder() != folder) return;
+          if (!*look) {
+            state.say(LogLine::Kind::fault, "Nothing was imported. " + describe(look->fault()));
+            return;
+          }
+          Value appearance;
+          appearance.set("image", Codec<ImageAppearance>::write(**look));
+          (void)state.apply("Picture on " + object, {set_edit({"objects", object}, "appearance", appearance)});
+        };
+      });
+}
+
 Thing replaced_by(const Value& args) { return {text_or(args, "list", "objects"), text_or(args, "replace", "")}; }
 
-/// args: path (none: it is asked for); replace: the thing whose mesh it becomes, of the list `list` (none: objects)
+/// args: path (none: it is asked for); look: the object that a picture is to be laid on; replace: the thing whose mesh
+/// it becomes, of the list `list` (none: objects)
 Status import(Session& session, const Value& args) {
   auto& state = SessionAccess::of(session);
   const auto path = text_arg(args, "path");
   if (!path) {
     state.file_wish = FileWish::import_mesh;
     state.import_replaces = replaced_by(args);
+    state.import_look_of = text_or(args, "look", "");
     return {};
   }
+  const std::string look_of = text_or(args, "look", std::exchange(state.import_look_of, {}));
   const Thing asked_for = std::exchange(state.import_replaces, Thing{});
   const fs::path file(*path);
   if (file.extension() == ".focal" || fs::is_directory(file)) return open(session, args);
   if (!state.document) return Fault{"session.nothing-open", file.string(), "no project is open", "open one first"};
+  if (!look_of.empty()) {
+    import_look(state, file, look_of);
+    return {};
+  }
   const Thing replaced = args.find("replace") ? replaced_by(args) : asked_for;
   state.jobs.start("Import " + file.filename().string(),
                    [&state, file, replaced, folder = state.document->folder()](const Jobs::Progress&, std::stop_token) {

@@ -4,6 +4,7 @@
 
 #include "core/base/number_words.h"
 #include "core/optics/vergence.h"
+#include "core/scene/sequence.h"
 #include "editor/session/edits.h"
 #include "editor/session/property_rows.h"
 #include "editor/tools/depth_handle.h"
@@ -128,7 +129,10 @@ Value white() { return Value(Value::Array{1.0, 1.0, 1.0}); }
 Value black() { return Value(Value::Array{0.0, 0.0, 0.0}); }
 
 std::string look_of(const Value& appearance) {
-  return appearance.find("unlit") ? "unlit" : appearance.find("checker") ? "checker" : "material";
+  for (const char* look : {"unlit", "checker", "image"}) {
+    if (appearance.find(look)) return look;
+  }
+  return "material";
 }
 
 /// Another look that begins with the colour of the one before.
@@ -143,6 +147,7 @@ std::vector<Edit> set_look(const PropertyScope& scope, const Thing& thing, const
   if (!value.text() || look_of(appearance) == *value.text()) return {};
   appearance.erase("unlit");
   appearance.erase("checker");
+  appearance.erase("image");
   if (*value.text() == "unlit") appearance.set("unlit", colour);
   if (*value.text() == "checker") {
     Value squares;
@@ -155,21 +160,83 @@ std::vector<Edit> set_look(const PropertyScope& scope, const Thing& thing, const
   return {set_edit(thing, "appearance", nothing_left ? Value() : appearance)};
 }
 
-void add_appearance_rows(PropertyRows& rows) {
-  rows.group("Appearance");
-  const std::string look = look_of(rows.at("appearance"));
-  Property& kind = rows.choice(
-      "look", "appearance",
-      {{Value("material"), "material, lit"}, {Value("unlit"), "one colour"}, {Value("checker"), "checker"}});
-  kind.value = Value(look);
-  kind.edits = set_look;
-  kind.help = "The mesh's own material in the light of the lights, or a colour that no light changes.";
-  if (look == "unlit") rows.colour("colour", "appearance/unlit", white());
-  if (look != "checker") return;
+/// A choice of words; `fresh`: what it is without one in the file.
+Property& word_row(PropertyRows& rows, const char* label, const char* key, std::vector<PropertyChoice> choices,
+                   const char* fresh) {
+  Property& row = rows.choice(label, key, std::move(choices));
+  if (row.value.is_null()) row.value = Value(fresh);
+  return row;
+}
+
+void add_sequence_rows(PropertyRows& rows) {
+  rows.number<ImageAppearance>("first picture", "appearance/image/first", {"", 0, 0.1}).help =
+      "The number in its name.";
+  rows.number<ImageAppearance>("pictures", "appearance/image/count", {"", 0, 0.1});
+  rows.number<ImageAppearance>("rate", "appearance/image/rate_hz", {"Hz", 3, 0.01}).help = "Pictures per second.";
+  rows.number<ImageAppearance>("start", "appearance/image/start_s", {"s", 3, 0.01}).help =
+      "When the first picture comes, on the project's clock.";
+  word_row(rows, "afterwards", "appearance/image/loop",
+           {{Value("loop"), "from the first again"},
+            {Value("hold"), "the last stays"},
+            {Value("once"), "nothing"},
+            {Value("ping-pong"), "back and forth"}},
+           "loop");
+}
+
+/// A name without a place for numbers makes one picture of a sequence.
+std::vector<Edit> set_picture_file(const PropertyScope& scope, const Thing& thing, const Property&,
+                                   const Value& value) {
+  const Value item = item_of(scope.project, thing);
+  const Value* found = value_at(item, {"appearance", "image"});
+  if (!found || !value.text()) return {};
+  Value image = *found;
+  if (image.find("count") && !has_number_place(*value.text())) {
+    for (const char* key : {"count", "first", "rate_hz", "start_s", "loop"}) image.erase(key);
+  }
+  image.set("file", value);
+  return {set_edit(thing, "appearance/image", image)};
+}
+
+void add_image_rows(PropertyRows& rows) {
+  Property& file = rows.text("file", "appearance/image/file");
+  file.help = "In the project's folder; of a sequence, # stands for its numbers.";
+  file.edits = set_picture_file;
+  if (rows.at("appearance").find("image")->find("count")) add_sequence_rows(rows);
+  word_row(rows, "beyond the edge", "appearance/image/wrap",
+           {{Value("clamp"), "its border"}, {Value("repeat"), "again"}, {Value("mirror"), "mirrored"}}, "clamp");
+  word_row(rows, "between pixels", "appearance/image/filter",
+           {{Value("linear"), "smooth"}, {Value("nearest"), "squares"}}, "linear");
+  word_row(rows, "colour space", "appearance/image/color_space",
+           {{Value("srgb"), "sRGB"}, {Value("linear"), "linear light"}}, "srgb");
+  rows.flag("lit", "appearance/image/lit").help = "Whether the lights act on it.";
+  rows.number<ImageAppearance>("cut below", "appearance/image/alpha_cutoff", {"", 2, 0.005}).help =
+      "What is less opaque is cut away; 0: nothing is.";
+}
+
+void add_checker_rows(PropertyRows& rows) {
   rows.number<CheckerAppearance>("squares across", "appearance/checker/squares/0", {"", 0, 0.1});
   rows.number<CheckerAppearance>("squares up", "appearance/checker/squares/1", {"", 0, 0.1});
   rows.colour("first colour", "appearance/checker/a", white()).help = "Of the square at the lower left.";
   rows.colour("other colour", "appearance/checker/b", black());
+}
+
+void add_appearance_rows(PropertyRows& rows) {
+  rows.group("Appearance");
+  const std::string look = look_of(rows.at("appearance"));
+  std::vector<PropertyChoice> choices{
+      {Value("material"), "material, lit"}, {Value("unlit"), "one colour"}, {Value("checker"), "checker"}};
+  if (look == "image") choices.push_back({Value("image"), "picture"});
+  Property& kind = rows.choice("look", "appearance", std::move(choices));
+  kind.value = Value(look);
+  kind.edits = set_look;
+  kind.help = "The mesh's own material in the light of the lights, a colour that no light changes, or a picture.";
+  if (look == "unlit") rows.colour("colour", "appearance/unlit", white());
+  if (look == "checker") add_checker_rows(rows);
+  if (look == "image") add_image_rows(rows);
+  Value args;
+  args.set("look", rows.thing().name);
+  rows.action("Picture…", "file.import", std::move(args)).help =
+      "A picture from a file over the mesh; the first of numbered ones brings all of them.";
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ struct Described {
 };
 
 /// In the order in which they are best met.
-constexpr std::array<Described, 8> descriptions{{
+constexpr std::array<Described, 9> descriptions{{
     {"first-light", "A near rabbit and a far teapot on a slanted screen. Begin here."},
     {"three-rabbits", "Near, middle and far, each sharp with the real block beside it."},
     {"step-teapot", "A turning teapot across a real step, sharp on both planes."},
@@ -34,6 +34,7 @@ constexpr std::array<Described, 8> descriptions{{
     {"slanted-checker", "A plane that runs through every slice without a seam."},
     {"depth-matching", "The user study: a target to be matched with a real pointer."},
     {"occlusion", "A near card before a far one, right at every focus."},
+    {"moving-pictures", "Pictures on objects: 16 bits, a sequence that plays, a leaf cut out."},
 }};
 
 std::size_t place_of(std::string_view name) {
@@ -56,7 +57,7 @@ Result<EyePicture> picture_of(const std::string& name, std::stop_token stop) {
   for (const SampleFile& file : sample->files) {
     const auto bytes = std::as_bytes(std::span(file.bytes.data(), file.bytes.size()));
     if (file.path == name + ".focal") text = file.bytes;
-    files.push_back({std::string(file.path), {}, {bytes.begin(), bytes.end()}});
+    files.push_back({std::string(file.path), {}, SharedBytes(bytes.data(), bytes.data() + bytes.size())});
   }
   const auto loaded = parse_project(text, name);
   if (!loaded) return loaded.fault();

@@ -109,6 +109,7 @@ FileWish Session::file_wish() const { return state_->file_wish; }
 void Session::forget_file_wish() {
   state_->file_wish = FileWish::none;
   state_->import_replaces = {};
+  state_->import_look_of.clear();
   state_->after_save = nullptr;
 }
 

@@ -6,6 +6,7 @@
 
 #include <glm/trigonometric.hpp>
 
+#include "core/scene/sequence.h"
 #include "core/stage/stage.h"
 #include "editor/session/edits.h"
 #include "editor/tools/pick.h"
@@ -22,14 +23,21 @@ constexpr glm::dvec2 usual_pane_px(640.0, 480.0);
 constexpr double narrowest_deg = 20.0, widest_deg = 60.0;
 
 /// The project without what cannot be stood up for want of its file.
-Project without_missing(const Project& project, const Assets& assets) {
+Project without_missing(const Project& project, const Assets& assets, double time_s) {
   Project shown = project;
   const auto is_there = [&](const MeshSource& mesh) {
     const auto* file = std::get_if<FileMesh>(&mesh.shape);
     return !file || assets.models.contains(file->file);
   };
   for (Surface& surface : shown.surfaces) surface.hidden = surface.hidden || !is_there(surface.mesh);
-  for (Object& object : shown.objects) object.hidden = object.hidden || !is_there(object.mesh);
+  const auto has_pictures = [&](const Appearance& appearance) {
+    const auto* image = std::get_if<ImageAppearance>(&appearance);
+    const std::optional<int> index = image ? picture_at(*image, time_s) : std::nullopt;
+    return !index || assets.pictures.contains(picture_file(*image, *index));
+  };
+  for (Object& object : shown.objects) {
+    object.hidden = object.hidden || !is_there(object.mesh) || !has_pictures(object.appearance);
+  }
   return shown;
 }
 
@@ -77,10 +85,10 @@ void Session::State::tidy() {
 }
 
 /// Behind the window; until then the rest of the room stands without them.
-void Session::State::read_files(const std::vector<std::string>& wanted) {
+void Session::State::read_files(const std::vector<AssetReference>& wanted) {
   if (wanted.empty() || reading) return;
   reading = true;
-  jobs.start("Read " + wanted.front() + (wanted.size() > 1 ? " and others" : ""),
+  jobs.start("Read " + wanted.front().file + (wanted.size() > 1 ? " and others" : ""),
              [this, folder = document->folder(), wanted](const Jobs::Progress&, std::stop_token) -> Jobs::Finish {
                auto read = std::make_shared<AssetShelf::Read>(AssetShelf::read(folder, wanted));
                return [this, folder, read] {
@@ -103,7 +111,7 @@ void Session::State::restage() {
   read_files(document->shelf().unread(project()));
   asset_findings = document->shelf().findings(project());
   const Assets& assets = document->shelf().assets();
-  auto stood = focalstage::stage(without_missing(project(), assets), assets, frame_time_s());
+  auto stood = focalstage::stage(without_missing(project(), assets, frame_time_s()), assets, frame_time_s());
   if (!stood) {
     const Fault& fault = stood.fault();
     asset_findings.push_back({Severity::error, fault.code, fault.where, fault.message, {}, {}});

@@ -82,6 +82,7 @@ struct Session::State {
   bool quitting = false;
   bool palette_open = false;
   FileWish file_wish = FileWish::none;
+  std::string import_look_of;        ///< the object on which the picture to be asked for is laid
   Thing import_replaces;             ///< whose mesh the file to be asked for becomes; no name: a new object
   std::function<void()> after_save;  ///< what waits for an untitled project to get its place
 
@@ -114,7 +115,7 @@ struct Session::State {
   void tidy();
   /// Of the folder in view. What cannot be read is told, and the program's own models serve.
   void read_models();
-  void read_files(const std::vector<std::string>& wanted);
+  void read_files(const std::vector<AssetReference>& wanted);
   void restage();
   void fit_views();
   void wish_preview();

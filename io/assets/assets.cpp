@@ -1,9 +1,14 @@
 #include "io/assets/assets.h"
 
+#include <algorithm>
+#include <map>
+#include <optional>
 #include <utility>
 
+#include "core/scene/sequence.h"
 #include "io/assets/file_source.h"
 #include "io/assets/mesh_file.h"
+#include "io/assets/picture_file.h"
 
 namespace focalstage {
 namespace {
@@ -48,6 +53,79 @@ std::vector<Reference> references_of(const Project& project) {
   return references;
 }
 
+/// Calls `use(image, pointer)` for every object that looks like a picture, and stops at a fault.
+template <class Use>
+Status each_image(const Project& project, Use&& use) {
+  for (std::size_t i = 0; i < project.objects.size(); ++i) {
+    const auto* image = std::get_if<ImageAppearance>(&project.objects[i].appearance);
+    if (image == nullptr) continue;
+    Status used = use(*image, "/objects/" + std::to_string(i) + "/appearance/image/file");
+    if (!used) return used;
+  }
+  return {};
+}
+
+int pictures_in(const ImageAppearance& image) { return image.count > 0 ? image.count : 1; }
+
+std::string size_words(const PictureFile& picture) {
+  return std::to_string(picture.width_px) + " x " + std::to_string(picture.height_px) + " pixels";
+}
+
+/// Reads pictures one after another, and how much there was of them.
+class PictureReader {
+ public:
+  PictureReader(FileSource& source, Assets& assets) : source_(source), assets_(assets) {}
+
+  Status read(const ImageAppearance& image, const std::string& pointer) {
+    std::optional<PictureFile> first;
+    for (int index = 0; index < pictures_in(image); ++index) {
+      const std::string path = picture_file(image, index);
+      Result<PictureFile> picture = one(path);
+      if (!picture) return fault_of(picture.fault(), image, index, pointer);
+      if (first && (first->width_px != picture->width_px || first->height_px != picture->height_px)) {
+        return Fault{"asset.sequence", pointer,
+                     path + " has " + size_words(*picture) + ", " + picture_file(image, 0) + " " + size_words(*first),
+                     "make all pictures of a sequence the same size"};
+      }
+      if (!first) first = *picture;
+      assets_.pictures.insert_or_assign(path, picture->picture);
+    }
+    return {};
+  }
+
+ private:
+  Result<PictureFile> one(const std::string& path) {
+    const auto known = read_.find(path);
+    if (known != read_.end()) return known->second;
+    const Result<const AssetFile*> file = source_.file(path);
+    if (!file) return file.fault();
+    bytes_ += (*file)->bytes.size();
+    if (bytes_ > most_picture_bytes) {
+      return Fault{"asset.too-large", path, "the pictures of the project have more than 512 MiB together",
+                   "make them smaller, or fewer"};
+    }
+    AssetFile named = **file;
+    named.path = path;
+    Result<PictureFile> picture = open_picture(named);
+    if (picture) read_.emplace(path, *picture);
+    return picture;
+  }
+
+  static Fault fault_of(Fault fault, const ImageAppearance& image, int index, const std::string& pointer) {
+    if (fault.message.find(fault.where) == std::string::npos) fault.message = fault.where + ": " + fault.message;
+    if (image.count > 0) {
+      fault.message += ", picture " + std::to_string(index + 1) + " of " + std::to_string(image.count);
+    }
+    fault.where = pointer;
+    return fault;
+  }
+
+  FileSource& source_;
+  Assets& assets_;
+  std::map<std::string, PictureFile> read_;
+  std::uint64_t bytes_ = 0;
+};
+
 Result<Assets> read_all(const Project& project, FileSource& source) {
   Assets assets;
   for (const Reference& reference : references_of(project)) {
@@ -56,15 +134,31 @@ Result<Assets> read_all(const Project& project, FileSource& source) {
     if (!file) return placed_in_project(file.fault(), reference);
     assets.models.emplace(reference.path, std::make_shared<const Model>(std::move(file->model)));
   }
+  PictureReader pictures(source, assets);
+  const Status read = each_image(
+      project, [&](const ImageAppearance& image, const std::string& pointer) { return pictures.read(image, pointer); });
+  if (!read) return read.fault();
   return assets;
 }
 
 }  // namespace
 
-std::set<std::string> mesh_files(const Project& project) {
+std::set<std::string> asset_files(const Project& project) {
   std::set<std::string> files;
   for (Reference& reference : references_of(project)) files.insert(std::move(reference.path));
+  (void)each_image(project, [&](const ImageAppearance& image, const std::string&) -> Status {
+    for (int index = 0; index < pictures_in(image); ++index) files.insert(picture_file(image, index));
+    return {};
+  });
   return files;
+}
+
+bool has_all(const Assets& assets, const Project& project) {
+  const auto known = [&](const std::string& file) {
+    return assets.models.contains(file) || assets.pictures.contains(file);
+  };
+  const std::set<std::string> files = asset_files(project);
+  return std::all_of(files.begin(), files.end(), known);
 }
 
 Result<LoadedAssets> load_assets(const Project& project, const std::filesystem::path& folder) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "core/mesh/model.h"
 #include "core/scene/finding.h"
 #include "core/scene/project.h"
+#include "io/files/shared_bytes.h"
 
 namespace focalstage {
 
@@ -19,7 +21,7 @@ namespace focalstage {
 struct AssetFile {
   std::string path;  ///< relative to the project folder, with forward slashes
   std::string sha256;
-  std::vector<std::byte> bytes;
+  SharedBytes bytes;
 
   bool operator==(const AssetFile&) const = default;
 };
@@ -29,10 +31,18 @@ struct LoadedAssets {
   std::vector<AssetFile> files;  ///< every file the project refers to, those a glTF refers to included; by path
 };
 
-/// The mesh files a project refers to, as it writes them.
-std::set<std::string> mesh_files(const Project& project);
+/// Pictures of one project, as they lie on disk, together.
+inline constexpr std::uint64_t most_picture_bytes = std::uint64_t{512} << 20;
 
-/// Reads everything the project refers to below `folder`. Faults: "asset.missing", "asset.invalid", "path.outside".
+/// The mesh and picture files a project refers to, as it writes them, each of a sequence by its own name.
+std::set<std::string> asset_files(const Project& project);
+
+/// Whether every file that the project refers to is among the assets.
+bool has_all(const Assets& assets, const Project& project);
+
+/// Reads everything the project refers to below `folder`. Of pictures only the first bytes are looked at; their pixels
+/// are made when they are asked for (StoredPicture). Faults: "asset.missing", "asset.invalid", "asset.too-large",
+/// "asset.sequence" (pictures of different sizes), "image.*", "path.outside".
 Result<LoadedAssets> load_assets(const Project& project, const std::filesystem::path& folder);
 
 /// The same from files already in memory (a show): nothing beside them is read.

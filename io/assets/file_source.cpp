@@ -17,23 +17,27 @@ Fault missing(const std::string& path) {
 
 }  // namespace
 
-Result<std::span<const std::byte>> FolderSource::bytes(const std::string& path) {
+Result<std::span<const std::byte>> FileSource::bytes(const std::string& path) {
+  const Result<const AssetFile*> found = file(path);
+  if (!found) return found.fault();
+  return std::span<const std::byte>((*found)->bytes);
+}
+
+Result<const AssetFile*> FolderSource::file(const std::string& path) {
   const auto known = read_.find(path);
-  if (known != read_.end()) return std::span<const std::byte>(known->second);
+  if (known != read_.end()) return &known->second;
   const Result<std::filesystem::path> real = path_inside(folder_, path);
   if (!real) return real.fault();
   Result<std::vector<std::byte>> content = read_file(*real, most_file_bytes);
   if (!content && content.fault().code == "file.missing") return missing(path);
   if (!content) return content.fault();
-  return std::span<const std::byte>(read_.emplace(path, *std::move(content)).first->second);
+  std::string sha256 = sha256_hex(*content);
+  return &read_.emplace(path, AssetFile{path, std::move(sha256), *std::move(content)}).first->second;
 }
 
 std::vector<AssetFile> FolderSource::take() {
   std::vector<AssetFile> files;
-  for (auto& [path, bytes] : std::exchange(read_, {})) {
-    std::string sha256 = sha256_hex(bytes);
-    files.push_back({path, std::move(sha256), std::move(bytes)});
-  }
+  for (auto& [path, file] : std::exchange(read_, {})) files.push_back(std::move(file));
   return files;
 }
 
@@ -41,10 +45,10 @@ MemorySource::MemorySource(const std::vector<AssetFile>& files) {
   for (const AssetFile& file : files) by_path_.emplace(plain(file.path), &file);
 }
 
-Result<std::span<const std::byte>> MemorySource::bytes(const std::string& path) {
+Result<const AssetFile*> MemorySource::file(const std::string& path) {
   const auto found = by_path_.find(plain(path));
   if (found == by_path_.end()) return missing(path);
-  return std::span<const std::byte>(found->second->bytes);
+  return found->second;
 }
 
 std::string path_beside(const std::string& path, const std::string& reference) {

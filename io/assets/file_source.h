@@ -16,8 +16,10 @@ class FileSource {
  public:
   virtual ~FileSource() = default;
 
-  /// Codes "asset.missing", "path.outside", "path.absolute", "file.*".
-  virtual Result<std::span<const std::byte>> bytes(const std::string& path) = 0;
+  /// Codes "asset.missing", "path.outside", "path.absolute", "file.*". Good as long as the source is.
+  virtual Result<const AssetFile*> file(const std::string& path) = 0;
+
+  Result<std::span<const std::byte>> bytes(const std::string& path);
 };
 
 /// A folder on disk; nothing above it can be reached. What was read is kept as it was then.
@@ -25,14 +27,14 @@ class FolderSource : public FileSource {
  public:
   explicit FolderSource(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-  Result<std::span<const std::byte>> bytes(const std::string& path) override;
+  Result<const AssetFile*> file(const std::string& path) override;
 
   /// Everything read so far, by path.
   std::vector<AssetFile> take();
 
  private:
   std::filesystem::path folder_;
-  std::map<std::string, std::vector<std::byte>> read_;
+  std::map<std::string, AssetFile> read_;
 };
 
 /// Files in memory, which must outlive it.
@@ -40,7 +42,7 @@ class MemorySource : public FileSource {
  public:
   explicit MemorySource(const std::vector<AssetFile>& files);
 
-  Result<std::span<const std::byte>> bytes(const std::string& path) override;
+  Result<const AssetFile*> file(const std::string& path) override;
 
  private:
   std::map<std::string, const AssetFile*> by_path_;

@@ -13,20 +13,25 @@ Wrap wrap_from(int code) {
   return code == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE ? Wrap::clamp : Wrap::repeat;
 }
 
-/// Alpha of a picture's pixels, as codes.
+/// Alpha of a picture's pixels, 0 to 1.
 struct AlphaRange {
-  int least = 255;
-  int most = 255;
+  double least = 1.0;
+  double most = 1.0;
 };
+
+template <class Number>
+AlphaRange alpha_in(const std::vector<Number>& rgba, double full) {
+  AlphaRange range{1.0, 0.0};
+  for (std::size_t i = 3; i < rgba.size(); i += 4) {
+    range.least = std::min(range.least, rgba[i] / full);
+    range.most = std::max(range.most, rgba[i] / full);
+  }
+  return range;
+}
 
 AlphaRange alpha_of(const Texture* texture) {
   if (texture == nullptr) return {};
-  AlphaRange range{255, 0};
-  for (std::size_t i = 3; i < texture->rgba.size(); i += 4) {
-    range.least = std::min<int>(range.least, texture->rgba[i]);
-    range.most = std::max<int>(range.most, texture->rgba[i]);
-  }
-  return range;
+  return texture->is_deep() ? alpha_in(texture->rgba16, 65535.0) : alpha_in(texture->rgba, 255.0);
 }
 
 double number_in(const tinygltf::Value& value, double otherwise) {
@@ -64,21 +69,26 @@ class MaterialReader {
       if (!read) return read.fault();
       material.texture = *read;
     }
-    result_.invisible.push_back(cut_away(from, index, alpha_of(material.texture.get())));
+    result_.invisible.push_back(cut_away(from, index, alpha_of(material.texture.get()), material.alpha_cutoff));
     result_.layouts.push_back(texture.index < 0 ? TextureLayout{} : texture_layout(texture));
     result_.materials.push_back(std::move(material));
     return {};
   }
 
-  /// Whether its alpha is below the cutoff everywhere. What is neither that nor opaque everywhere is drawn opaque.
-  bool cut_away(const tinygltf::Material& from, std::size_t index, const AlphaRange& of_texture) {
+  /// Whether its alpha is below the cutoff everywhere. A mask that is neither that nor opaque everywhere is cut where
+  /// its texture says; what blends is drawn opaque.
+  bool cut_away(const tinygltf::Material& from, std::size_t index, const AlphaRange& of_texture, double& cutoff) {
     if (from.alphaMode == "OPAQUE") return false;
     const double factor = from.pbrMetallicRoughness.baseColorFactor[3];
-    const double least = factor * of_texture.least / 255.0;
-    const double most = factor * of_texture.most / 255.0;
+    const double least = factor * of_texture.least;
+    const double most = factor * of_texture.most;
     const bool mask = from.alphaMode == "MASK";
     if (mask && most < from.alphaCutoff) return true;
     if (least >= (mask ? from.alphaCutoff : 1.0)) return false;
+    if (mask) {
+      cutoff = from.alphaCutoff / factor;  // not zero, or most would be
+      return false;
+    }
     result_.findings.push_back(asset_finding(Severity::info, "asset.drawn-opaque", document_.at("materials", index),
                                              "the material lets light through; it is drawn opaque"));
     return false;
@@ -109,9 +119,9 @@ class MaterialReader {
     const std::string where = document_.at("images", index);
     std::span<const std::byte> bytes = std::as_bytes(std::span(image.image));
     if (image.bufferView >= 0) bytes = view_bytes(document_.gltf, image.bufferView);
-    Result<Texture> texture = decode_image(bytes, where);
+    Result<Texture> texture = decode_image(bytes, where, PixelBits::as_stored);
     if (!texture) return texture;
-    pixels_left_ -= static_cast<std::int64_t>(texture->rgba.size() / 4);
+    pixels_left_ -= std::int64_t{texture->width_px} * texture->height_px;
     if (pixels_left_ < 0) {
       return Fault{"asset.too-large", where, "its textures have more than 2^27 pixels together", "scale them down"};
     }

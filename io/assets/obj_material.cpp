@@ -103,7 +103,7 @@ Status ObjMaterials::read_texture(const std::string& library, const std::string&
       warn("asset.texture-missing", where, "the texture " + path + " is not there; its colour alone is used");
       return {};
     }
-    Result<Texture> decoded = decode_image(*bytes, path);
+    Result<Texture> decoded = decode_image(*bytes, path, PixelBits::as_stored);
     if (!decoded) return decoded.fault();
     texture = std::make_shared<const Texture>(*std::move(decoded));
   }

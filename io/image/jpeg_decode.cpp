@@ -91,6 +91,15 @@ class JpegReader {
 
 }  // namespace
 
+Result<PictureHead> jpeg_head(std::span<const std::byte> bytes, const std::string& source) {
+  JpegReader reader(bytes);
+  if (!reader.read_header()) return image_fault(source, "bad JPEG: " + reader.why());
+  if (!reader.has_rgb) {
+    return Fault{"image.unsupported", source, "this JPEG is neither gray nor RGB", "export the picture in RGB"};
+  }
+  return sized(reader.width_px, reader.height_px, source);
+}
+
 Result<Texture> decode_jpeg(std::span<const std::byte> bytes, const std::string& source) {
   JpegReader reader(bytes);
   if (!reader.read_header()) return image_fault(source, "bad JPEG: " + reader.why());

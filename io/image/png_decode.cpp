@@ -1,7 +1,9 @@
 #include <png.h>
 
+#include <bit>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #include "io/image/decoders.h"
@@ -33,19 +35,22 @@ class PngReader {
     width_px = png_get_image_width(png_, info_);
     height_px = png_get_image_height(png_, info_);
     raw_bytes = (std::uint64_t{png_get_rowbytes(png_, info_)} + 1) * height_px;
+    is_deep = png_get_bit_depth(png_, info_) == 16;
     return true;
   }
 
-  /// Rows of width x 4 bytes.
-  bool read_pixels(png_bytepp rows) {
+  /// Rows of width x 4 numbers, of 16 bits in this machine's order if `deep`, else of 8.
+  bool read_pixels(png_bytepp rows, bool deep) {
     if (setjmp(png_jmpbuf(png_))) return false;
     png_set_expand(png_);
-    png_set_scale_16(png_);
+    if (!deep) png_set_scale_16(png_);
+    if (deep && std::endian::native == std::endian::little) png_set_swap(png_);
     png_set_gray_to_rgb(png_);
-    png_set_add_alpha(png_, 0xFF, PNG_FILLER_AFTER);
+    png_set_add_alpha(png_, deep ? 0xFFFF : 0xFF, PNG_FILLER_AFTER);
     png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
-    if (png_get_rowbytes(png_, info_) != std::size_t{width_px} * 4) png_error(png_, "its rows have no RGBA form");
+    const std::size_t row_bytes = std::size_t{width_px} * (deep ? 8 : 4);
+    if (png_get_rowbytes(png_, info_) != row_bytes) png_error(png_, "its rows have no RGBA form");
     png_read_image(png_, rows);
     png_read_end(png_, nullptr);
     return true;
@@ -56,6 +61,7 @@ class PngReader {
   std::uint32_t width_px = 0;
   std::uint32_t height_px = 0;
   std::uint64_t raw_bytes = 0;  ///< of all rows, unpacked
+  bool is_deep = false;         ///< 16 bits a number
 
  private:
   [[noreturn]] static void fail(png_structp png, png_const_charp message) {
@@ -79,21 +85,51 @@ class PngReader {
   char message_[160] = "out of memory";
 };
 
-}  // namespace
-
-Result<Texture> decode_png(std::span<const std::byte> bytes, const std::string& source) {
+/// Why the file cannot hold what its header says, or none.
+std::optional<Fault> wrong_head(PngReader& reader, std::span<const std::byte> bytes, const std::string& source) {
   // Deflate packs at most 1032 to 1: a short file that promises more is cut off, whatever its header says.
   constexpr std::uint64_t most_packing = 1032;
-  PngReader reader(bytes);
   if (!reader.read_header()) return image_fault(source, "bad PNG: " + reader.why());
   if (reader.raw_bytes / most_packing > bytes.size()) {
     return image_fault(source, "bad PNG: the file is too short for the size it gives");
   }
-  Result<Texture> texture = blank_texture(reader.width_px, reader.height_px, source);
+  return std::nullopt;
+}
+
+/// Whether its pieces follow each other to the one that ends it.
+bool is_whole(std::span<const std::byte> bytes) {
+  constexpr std::size_t signature = 8, around = 12;  // length, name and checksum
+  for (std::size_t at = signature; at + around <= bytes.size();) {
+    std::uint64_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<std::uint64_t>(bytes[at + i]);
+    if (length + around > bytes.size() - at) return false;
+    if (std::memcmp(bytes.data() + at + 4, "IEND", 4) == 0) return true;
+    at += length + around;
+  }
+  return false;
+}
+
+}  // namespace
+
+Result<PictureHead> png_head(std::span<const std::byte> bytes, const std::string& source) {
+  PngReader reader(bytes);
+  if (const auto fault = wrong_head(reader, bytes, source)) return *fault;
+  if (!is_whole(bytes)) return image_fault(source, "bad PNG: the file ends too early");
+  return sized(reader.width_px, reader.height_px, source);
+}
+
+Result<Texture> decode_png(std::span<const std::byte> bytes, const std::string& source, PixelBits bits) {
+  PngReader reader(bytes);
+  if (const auto fault = wrong_head(reader, bytes, source)) return *fault;
+  const bool deep = reader.is_deep && bits == PixelBits::as_stored;
+  Result<Texture> texture = blank_texture(reader.width_px, reader.height_px, source, deep);
   if (!texture) return texture;
   std::vector<png_bytep> rows(reader.height_px);
-  for (std::size_t y = 0; y < rows.size(); ++y) rows[y] = texture->rgba.data() + y * reader.width_px * 4;
-  if (!reader.read_pixels(rows.data())) return image_fault(source, "bad PNG: " + reader.why());
+  for (std::size_t y = 0; y < rows.size(); ++y) {
+    const std::size_t first = y * reader.width_px * 4;
+    rows[y] = deep ? reinterpret_cast<png_bytep>(texture->rgba16.data() + first) : texture->rgba.data() + first;
+  }
+  if (!reader.read_pixels(rows.data(), deep)) return image_fault(source, "bad PNG: " + reader.why());
   return texture;
 }
 

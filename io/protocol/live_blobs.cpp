@@ -7,7 +7,7 @@
 
 namespace focalstage {
 
-void LiveBlobs::offer(const std::string& sha256, std::vector<std::byte> bytes) {
+void LiveBlobs::offer(const std::string& sha256, SharedBytes bytes) {
   offered_.insert_or_assign(sha256, std::move(bytes));
 }
 
@@ -24,7 +24,7 @@ void LiveBlobs::ask(const std::string& sha256) {
 
 v1::LiveChunk LiveBlobs::next_chunk() {
   v1::LiveChunk chunk;
-  const std::vector<std::byte>& bytes = offered_.at(asked_.front());
+  const SharedBytes& bytes = offered_.at(asked_.front());
   const std::size_t length = std::min(push_chunk_bytes, bytes.size() - sent_bytes_);
   chunk.set_sha256(asked_.front());
   chunk.set_offset_bytes(sent_bytes_);

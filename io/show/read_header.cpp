@@ -32,7 +32,7 @@ void read_assets(Hdf5In& in, ShowHeader& header) {
     const std::string name = "/asset/" + sha256;
     const std::vector<std::uint8_t> bytes = in.numbers<std::uint8_t>(name.c_str(), {Hdf5In::any});
     const auto* first = reinterpret_cast<const std::byte*>(bytes.data());
-    AssetFile asset{in.text_attribute(name.c_str(), "path"), sha256, {first, first + bytes.size()}};
+    AssetFile asset{in.text_attribute(name.c_str(), "path"), sha256, SharedBytes(first, first + bytes.size())};
     if (in.ok() && hex(sha256_of(asset.bytes)) != sha256) in.refuse(name, "its bytes have another hash");
     std::vector<std::string> paths{asset.path};
     if (in.has_attribute(name.c_str(), "paths")) paths = in.texts_attribute(name.c_str(), "paths");

@@ -44,9 +44,9 @@ TEST_CASE("the scenes show something, of every kind") {
   CHECK(lit * 3 > all * 2);
   CHECK(both_threads_alike == all);
   for (const char* kind :
-       {"plane",   "bumpy",    "step",   "corner", "bowl",      "ball",  "box",    "blob",  "soup",
-        "checker", "textured", "lit",    "flat",   "placed",    "fixed", "offset", "slice", "nearest",
-        "linear",  "exact",    "planar", "off",    "distorted", "rgb",   "gray",   "4",     "9"}) {
+       {"plane",    "bumpy", "step",      "corner", "bowl",  "ball",   "box",   "blob",    "soup",   "checker",
+        "textured", "lit",   "flat",      "placed", "fixed", "offset", "slice", "nearest", "linear", "exact",
+        "planar",   "off",   "distorted", "rgb",    "gray",  "4",      "9",     "deep",    "cut"}) {
     CHECK_MESSAGE(words.count(kind) == 1, kind);
   }
 }

@@ -29,7 +29,7 @@ SharedMesh random_triangles(Chance& chance, double size_m) {
 
 glm::dvec3 random_colour(Chance& chance) { return glm::dvec3(0.5) + chance.within(0.5); }
 
-std::shared_ptr<const Texture> random_texture(Chance& chance) {
+std::shared_ptr<Texture> random_texture(Chance& chance) {
   auto texture = std::make_shared<Texture>();
   texture->width_px = chance.whole(1, 40);
   texture->height_px = chance.whole(1, 40);
@@ -40,6 +40,26 @@ std::shared_ptr<const Texture> random_texture(Chance& chance) {
   texture->wrap_u = wraps[static_cast<std::size_t>(chance.whole(0, 2))];
   texture->wrap_v = wraps[static_cast<std::size_t>(chance.whole(0, 2))];
   return texture;
+}
+
+/// What pictures can be beside that, drawn from the texture itself: scenes of before textures had it stay as they are
+/// otherwise.
+void draw_picture(Texture& texture, Finish& finish, std::string& story) {
+  std::uint64_t seed = texture.rgba.size();
+  for (const std::uint8_t number : texture.rgba) seed = seed * 1099511628211u + number;
+  Chance chance(seed);
+  if (chance.one_in(3)) texture.magnify = Magnify::nearest;
+  if (chance.one_in(3)) {
+    for (const std::uint8_t high : texture.rgba) {
+      texture.rgba16.push_back(static_cast<std::uint16_t>(256 * high + chance.whole(0, 255)));
+    }
+    texture.rgba.clear();
+    story += ":deep";
+  }
+  if (chance.one_in(3)) texture.color_space = ColorSpace::linear;
+  if (!chance.one_in(3)) return;
+  finish.alpha_cutoff = chance.between(0.05, 0.95);
+  story += ":cut";
 }
 
 }  // namespace
@@ -101,6 +121,7 @@ SharedMesh random_object(Chance& chance, double size_m, std::string& story) {
 
 Finish random_finish(Chance& chance, std::string& story) {
   Finish finish;
+  std::shared_ptr<Texture> texture;
   finish.a = chance.one_in(4) ? glm::dvec3(1.0) : random_colour(chance);
   finish.lit = chance.one_in(3);
   switch (chance.whole(0, 2)) {
@@ -113,10 +134,12 @@ Finish random_finish(Chance& chance, std::string& story) {
       break;
     default:
       finish.kind = Finish::Kind::textured;
-      finish.texture = random_texture(chance);
+      texture = random_texture(chance);
   }
   constexpr std::array<const char*, 3> names{"flat", "checker", "textured"};
   story.append(":").append(names[static_cast<std::size_t>(finish.kind)]).append(finish.lit ? ":lit" : "");
+  if (texture) draw_picture(*texture, finish, story);
+  finish.texture = texture;
   return finish;
 }
 

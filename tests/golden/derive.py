@@ -5,6 +5,7 @@ import functools
 import importlib.util
 import math
 import pathlib
+from fractions import Fraction
 
 import numpy
 
@@ -114,11 +115,43 @@ def figures(file):
     return module
 
 
-def nearest(faces, start, way):
+@functools.lru_cache
+def pictures():
+    """What wrote the pictures of the sample that has some."""
+    path = pathlib.Path(__file__).parent / "moving-pictures/pictures.py"
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def picture_of(image, time_s):
+    """The file of a picture, or of the one that a sequence shows, by whole numbers alone; time_s is a Fraction."""
+    if "count" not in image:
+        return image["file"]
+    exact = [Fraction(str(image.get(key, 0))) for key in ("start_s", "rate_hz")]
+    k, count = math.floor((time_s - exact[0]) * exact[1]), image["count"]
+    end = image.get("loop", "loop")
+    if k < 0:
+        k = 0 if end != "once" else None
+    elif end == "loop":
+        k %= count
+    elif end == "ping-pong":
+        k %= 2 * count - 2
+        k = min(k, 2 * count - 2 - k)
+    elif k >= count:
+        k = count - 1 if end == "hold" else None
+    if k is None:
+        return None
+    digits = image["file"].count("#")
+    return image["file"].replace("#" * digits, f"{image.get('first', 1) + k:0{digits}}")
+
+
+def nearest(faces, start, way, there=lambda face, u, v: True):
     best = None
     for face in faces:
         met = face.meet(start, way)
-        if met and (best is None or met[0] < best[1][0]):
+        if met and there(face, met[1], met[2]) and (best is None or met[0] < best[1][0]):
             best = (face, met)
     return best
 
@@ -130,6 +163,7 @@ class Room:
     def __init__(self, project, frame):
         self.project = project
         self.time_s = frame / project["frames"]["rate_hz"]
+        self.exact_s = frame / Fraction(str(project["frames"]["rate_hz"]))
         self.surfaces = [f for s in project["surfaces"] for f in faces_of(s, self.time_s)]
         self.objects = [f for o in project["objects"] for f in faces_of(o, self.time_s)]
         self.powers_d = project["slices"]["powers_d"]
@@ -164,6 +198,13 @@ class Room:
             checker = appearance["checker"]
             square = math.floor(u * checker["squares"][0]) + math.floor(v * checker["squares"][1])
             return checker["a" if square % 2 == 0 else "b"][0]
+        if "image" in appearance:
+            image = appearance["image"]
+            assert image["filter"] == "nearest" and not image.get("lit")
+            number = pictures().texel(picture_of(image, self.exact_s), u, v)[0]
+            if image.get("color_space", "srgb") == "linear":
+                return number
+            return number / 12.92 if number <= 0.04045 else ((number + 0.055) / 1.055) ** 2.4
         normal = face.normal if face.normal @ look < 0 else -face.normal
         light = 0.0
         for lamp in self.project["lights"]:
@@ -173,6 +214,14 @@ class Room:
                 way = numpy.array(lamp["direction"], float)
                 light += lamp["intensity"] * lamp["color"][0] * max(0.0, -normal @ way / numpy.linalg.norm(way))
         return light
+
+    def there(self, face, u, v):
+        """Whether an object is there at this place of its picture, not cut away."""
+        image = face.thing.get("appearance", {}).get("image")
+        if not image:
+            return True
+        file = picture_of(image, self.exact_s)
+        return file is not None and pictures().texel(file, u, v)[1] >= image.get("alpha_cutoff", 0)
 
     def weight(self, n, wanted_d):
         """The share of slice n under the linear rule."""
@@ -211,7 +260,7 @@ class Room:
             return 0.0, f"; {sight[0].name} hides it from the {eye} eye"
         d_p = lens[2] - point[2]
         look = (point - lens) + (1 - self.powers_d[n] * d_p) * (lens - pupil)
-        met = nearest(self.objects, pupil, look)
+        met = nearest(self.objects, pupil, look, self.there)
         said = f"; d_p = {d_p:.6f} m, look {numpy.round(look, 6).tolist()}"
         if not met:
             return 0.0, said + " meets no object"

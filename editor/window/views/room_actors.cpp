@@ -46,14 +46,20 @@ vtkSmartPointer<vtkTexture> checker_texture(const Finish& finish) {
   return texture;
 }
 
+/// One of the texture's numbers as screens take it.
+unsigned char srgb_byte(const Texture& source, std::size_t at) {
+  const double share = source.is_deep() ? source.rgba16[at] / 65535.0 : source.rgba[at] / 255.0;
+  if (source.color_space == ColorSpace::linear) return srgb_code(share);
+  return static_cast<unsigned char>(255.0 * share + 0.5);
+}
+
 vtkSmartPointer<vtkTexture> picture_texture(const Texture& source) {
   auto pixels = image(source.width_px, source.height_px, 3);
   for (int y = 0; y < source.height_px; ++y) {
     auto* to = static_cast<unsigned char*>(pixels->GetScalarPointer(0, source.height_px - 1 - y, 0));
-    const std::uint8_t* from =
-        &source.rgba[static_cast<std::size_t>(y) * static_cast<std::size_t>(source.width_px) * 4];
+    std::size_t from = static_cast<std::size_t>(y) * static_cast<std::size_t>(source.width_px) * 4;
     for (int x = 0; x < source.width_px; ++x, from += 4) {
-      for (int c = 0; c < 3; ++c) *to++ = from[c];
+      for (std::size_t c = 0; c < 3; ++c) *to++ = srgb_byte(source, from + c);
     }
   }
   auto texture = vtkSmartPointer<vtkTexture>::New();

@@ -126,6 +126,79 @@ TEST_CASE("appearance decides the finish; light acts on materials that take it, 
   }
 }
 
+namespace {
+
+/// Remembers what it was asked for; a texture of one pixel, or a fault.
+class OnePixel : public StoredPicture {
+ public:
+  explicit OnePixel(int code) : code_(code) {}
+
+  Result<std::shared_ptr<const Texture>> texture(const TextureUse& use) const override {
+    if (code_ < 0) return Fault{"image.invalid", "frames/b4.png", "bad PNG", "export it again"};
+    Texture texture{1, 1, {static_cast<std::uint8_t>(code_), 0, 0, 255}};
+    texture.wrap_u = texture.wrap_v = use.wrap;
+    return std::make_shared<const Texture>(texture);
+  }
+
+ private:
+  int code_;
+};
+
+}  // namespace
+
+TEST_CASE("a sequence's picture of the moment is the object's finish; between shows it is not there") {
+  Assets assets;
+  for (int k = 1; k <= 3; ++k) {
+    assets.pictures["frames/b" + std::to_string(k) + ".png"] = std::make_shared<const OnePixel>(k);
+  }
+  assets.pictures["frames/b4.png"] = std::make_shared<const OnePixel>(-1);
+  ImageAppearance image;
+  image.file = "frames/b#.png";
+  image.count = 3;
+  image.rate_hz = 10.0;
+  image.start_s = 1.0;
+  image.end = SequenceEnd::once;
+  image.wrap = Wrap::mirror;
+  image.lit = true;
+  image.alpha_cutoff = 0.25;
+  Project project;
+  project.objects = {object("poster", PlaneMesh{}, image), object("box", BoxMesh{})};
+  project.lights.resize(1);
+  const auto at = [&](double time_s) {
+    const Result<Stage> stood = stage(project, assets, time_s);
+    if (!stood) FAIL(describe(stood.fault()));
+    return *stood;
+  };
+  for (int k = 0; k < 3; ++k) {
+    const Stage stood = at(1.0 + k / 10.0);
+    REQUIRE(stood.objects[0].drawables.size() == 1);
+    const Finish& finish = stood.objects[0].drawables[0].finish;
+    CHECK(finish.kind == Finish::Kind::textured);
+    CHECK(finish.texture->rgba[0] == k + 1);
+    CHECK(finish.texture->wrap_v == Wrap::mirror);
+    CHECK(finish.lit);
+    CHECK(finish.alpha_cutoff == 0.25);
+    CHECK(finish.a == glm::dvec3(1.0));
+  }
+  for (const double outside_s : {0.0, 0.95, 1.3, 50.0}) {
+    const Stage stood = at(outside_s);
+    CHECK(stood.objects.size() == 2);
+    CHECK(stood.objects[0].drawables.empty());
+    CHECK(stood.objects[1].drawables.size() == 1);
+  }
+  std::get<ImageAppearance>(project.objects[0].appearance).count = 5;
+  const auto fault_at = [&](double time_s) {
+    const Result<Stage> stood = stage(project, assets, time_s);
+    REQUIRE_FALSE(stood.ok());
+    CHECK(stood.fault().where.starts_with("/objects/0/appearance/image/file"));
+    return stood.fault();
+  };
+  CHECK(fault_at(1.3).code == "image.invalid");
+  CHECK(fault_at(1.3).message.find("frames/b4.png") != std::string::npos);
+  CHECK(fault_at(1.4).code == "stage.asset-missing");
+  CHECK(fault_at(1.4).message.find("frames/b5.png") != std::string::npos);
+}
+
 TEST_CASE("one shape is one mesh, between calls and between threads") {
   Project project;
   project.surfaces = {surface("a", RabbitMesh{}), surface("b", RabbitMesh{}), surface("c", PlaneMesh{{0.3, 0.4}})};

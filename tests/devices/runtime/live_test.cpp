@@ -280,7 +280,9 @@ TEST_CASE("an asset travels once, by its hash") {
 TEST_CASE("an asset that is not what it was announced as is refused, and the link goes on") {
   const Stand stand;
   AssetFile file = triangle(0.1);
-  file.bytes.back() = std::byte{'x'};
+  std::vector<std::byte> damaged(file.bytes.begin(), file.bytes.end());
+  damaged.back() = std::byte{'x'};
+  file.bytes = std::move(damaged);
   RigClient client = stand.client();
   LiveLink link = Playing::begun(client, with_triangle(), {file});
   sample::LiveAnswers answers(link);
@@ -290,7 +292,7 @@ TEST_CASE("an asset that is not what it was announced as is refused, and the lin
   CHECK(answers.wait_compiled(2));
   // One that no mesh reader takes is refused by its own name.
   AssetFile nonsense = triangle(0.1);
-  nonsense.bytes.assign(100, std::byte{0xff});
+  nonsense.bytes = std::vector<std::byte>(100, std::byte{0xff});
   nonsense.sha256 = sha256_hex(nonsense.bytes);
   REQUIRE(link.send(3, {}, {nonsense}));
   REQUIRE(answers.wait_refused(3));

@@ -40,6 +40,15 @@ Value key(double time_s, double x) {
   return value;
 }
 
+Value picture(const char* file, double count = 0.0) {
+  Value image(Value::Object{{"file", file}});
+  if (count > 0.0) {
+    image.set("count", count);
+    image.set("rate_hz", 24.0);
+  }
+  return Value(Value::Object{{"image", image}});
+}
+
 /// One of everything that has rows.
 Project rich_project() {
   Project start;
@@ -76,6 +85,8 @@ Project rich_project() {
       start, {add("objects", "rabbit", object("rabbit")), add("objects", "box", object("box", {{"depth", fixed}})),
               add("objects", "ball", object("sphere", {{"depth", offset}, {"appearance", unlit}})),
               add("objects", "sheet", object("plane", {{"depth", slice}, {"appearance", checker}, {"keys", keys}})),
+              add("objects", "poster", object("plane", {{"appearance", picture("poster.png")}})),
+              add("objects", "fire", object("plane", {{"appearance", picture("fire_##.png", 12.0)}})),
               add("objects", "filed", with_file), add("surfaces", "corner", corner), add("surfaces", "step", step),
               add("lights", "sun", Value(Value::Object{{"kind", "sun"}})),
               add("lights", "lamp", Value(Value::Object{{"kind", "point"}})),
@@ -90,6 +101,8 @@ Project rich_project() {
 std::shared_ptr<const Stage> staged(Project project, double time_s = 0.0) {
   const auto is_filed = [](const auto& thing) { return std::holds_alternative<FileMesh>(thing.mesh.shape); };
   std::erase_if(project.objects, is_filed);
+  std::erase_if(project.objects,
+                [](const Object& each) { return std::holds_alternative<ImageAppearance>(each.appearance); });
   std::erase_if(project.surfaces, is_filed);
   auto made = stage(project, {}, time_s);
   REQUIRE(made.ok());

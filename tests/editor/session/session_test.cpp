@@ -304,6 +304,41 @@ TEST_CASE("a broken mesh is refused in words, and a good one becomes an object")
   CHECK(session.stage()->objects.size() == 3);
 }
 
+TEST_CASE("a numbered picture laid on an object brings those that follow it, and plays on the clock") {
+  const Home home;
+  for (int k = 7; k < 10; ++k) {
+    const std::vector<std::uint8_t> codes(4, static_cast<std::uint8_t>(20 * k));
+    REQUIRE(write_png(home.path() / ("fire_00" + std::to_string(k) + ".png"), 2, 2, 1, codes).ok());
+  }
+  Session session([] {});
+  open_sample(session, "first-light");
+  const std::string name = session.project().objects[0].name;
+  const auto lay = [&](const char* file) {
+    return session.run("file.import", args({{"path", (home.path() / file).string()}, {"look", name}}));
+  };
+  REQUIRE(lay("fire_007.png").ok());
+  const auto image = [&] { return std::get_if<ImageAppearance>(&session.project().objects[0].appearance); };
+  REQUIRE(wait(session, [&] { return image() != nullptr; }));
+  CHECK(image()->file == "assets/fire/fire_###.png");
+  CHECK(image()->first == 7);
+  CHECK(image()->count == 3);
+  CHECK(image()->rate_hz == session.project().frames.rate_hz);
+  const auto shown = [&]() -> std::shared_ptr<const Texture> {
+    const auto& drawables = session.stage()->objects.at(0).drawables;
+    return drawables.empty() ? nullptr : drawables[0].finish.texture;
+  };
+  REQUIRE(wait(session, [&] { return session.stage()->objects.at(0).name == name && shown() != nullptr; }));
+  CHECK(shown()->rgba[0] == 140);
+  REQUIRE(wait_compiled(session));
+  REQUIRE(lay("fire_009.png").ok());  // none follows: one picture
+  REQUIRE(wait(session, [&] { return image()->count == 0; }));
+  CHECK(image()->file == "assets/fire_009.png");
+  const Project before = session.project();
+  REQUIRE(session.run("file.import", args({{"path", "/nonexistent/a.png"}, {"look", name}})).ok());
+  REQUIRE(wait(session, [&] { return session.notice() && session.notice()->kind == LogLine::Kind::fault; }));
+  CHECK(session.project() == before);
+}
+
 TEST_CASE("what a client should see is written as pictures") {
   const Home home;
   Session session([] {});

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include <glm/geometric.hpp>
@@ -7,6 +8,7 @@
 
 #include "core/scene/edit.h"
 #include "core/scene/project.h"
+#include "io/files/files.h"
 #include "tests/io/assets/gltf_writer.h"
 
 using namespace focalstage;
@@ -121,15 +123,18 @@ TEST_CASE(
     double cutoff;
     std::size_t parts;
     bool said;
+    double cut_below = 0.0;  ///< of the texture's alpha
   };
   const Case cases[] = {
-      {"MASK", clear_and_full, 1.0, 0.5, 1, true},  // half of it is cut away
-      {"MASK", thin, 1.0, 0.5, 0, false},           // 120/255 < 0.5
-      {"MASK", thin, 1.0, 0.2, 1, false},           // 60/255 > 0.2
-      {"MASK", thin, 0.5, 0.2, 1, true},            // 30/255 < 0.2 < 60/255
-      {"MASK", nullptr, 0.4, 0.5, 0, false},       {"MASK", nullptr, 0.6, 0.5, 1, false},
+      {"MASK", clear_and_full, 1.0, 0.5, 1, false, 0.5},  // half of it is cut away
+      {"MASK", thin, 1.0, 0.5, 0, false},                 // 120/255 < 0.5
+      {"MASK", thin, 1.0, 0.2, 1, false},                 // 60/255 > 0.2
+      {"MASK", thin, 0.5, 0.2, 1, false, 0.4},            // 30/255 < 0.2 < 60/255
+      {"MASK", nullptr, 0.4, 0.5, 0, false},
+      {"MASK", nullptr, 0.6, 0.5, 1, false},
       {"BLEND", nullptr, 1.0, 0.5, 1, false},  // lets nothing through
-      {"BLEND", nullptr, 0.9, 0.5, 1, true},       {"BLEND", thin, 1.0, 0.5, 1, true},
+      {"BLEND", nullptr, 0.9, 0.5, 1, true},
+      {"BLEND", thin, 1.0, 0.5, 1, true},
       {"OPAQUE", thin, 0.1, 0.5, 1, false},
   };
   for (const Case& each : cases) {
@@ -147,7 +152,19 @@ TEST_CASE(
     const MeshFile file = read_whole(gltf);
     CHECK(file.model.nodes[1].parts.size() == each.parts);
     CHECK((finding_of(file, "asset.drawn-opaque") != nullptr) == each.said);
+    CHECK(file.model.materials[0].alpha_cutoff == doctest::Approx(each.cut_below));
   }
+}
+
+TEST_CASE("a texture keeps the 16 bits of its picture, and its mask counts in them") {
+  const std::filesystem::path fixture = std::filesystem::path(FOCALSTAGE_SOURCE_DIR) / "tests/io/image/fixture";
+  Gltf gltf = square_gltf();
+  const Bytes corners = *read_file(fixture / "corners16.png", 10000);  // alpha 32768, 65535, 1 and 0
+  gltf.json["images"][0] = {{"bufferView", gltf.add_view(corners)}, {"mimeType", "image/png"}};
+  material_of(gltf)["alphaMode"] = "MASK";
+  const auto material = [&] { return read_whole(gltf).model.materials[0]; };
+  CHECK(material().texture->rgba16.at(4) == 0x1234);
+  CHECK(material().alpha_cutoff == 0.5);
 }
 
 TEST_CASE("a camera can be the viewer or a projector: each an edit that a project takes") {

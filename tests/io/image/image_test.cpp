@@ -284,3 +284,45 @@ TEST_CASE("what is no picture is named as such") {
     CHECK(texture.fault().where == "odd.bin");
   }
 }
+
+TEST_CASE("16 bits of pictures that others wrote stay 16 bits") {
+  const auto fixture = [](const char* name) {
+    return *read_file(std::filesystem::path(FOCALSTAGE_SOURCE_DIR) / "tests/io/image/fixture" / name, 10000);
+  };
+  const Bytes ramp = fixture("ramp16.png");  // by Pillow: 64 x + y
+  const Result<Texture> gray = decode_image(ramp, "ramp16.png", PixelBits::as_stored);
+  REQUIRE(gray.ok());
+  CHECK(gray->rgba.empty());
+  REQUIRE(gray->rgba16.size() == 1024 * 2 * 4);
+  int wrong = 0;
+  for (int y = 0; y < 2; ++y) {
+    for (int x = 0; x < 1024; ++x) {
+      const std::uint16_t* is = &gray->rgba16[static_cast<std::size_t>(4 * (1024 * y + x))];
+      const int was = 64 * x + y;
+      wrong += is[0] != was || is[1] != was || is[2] != was || is[3] != 65535 ? 1 : 0;
+    }
+  }
+  CHECK(wrong == 0);
+  const Result<Texture> corners = decode_image(fixture("corners16.png"), "corners16.png", PixelBits::as_stored);
+  REQUIRE(corners.ok());
+  CHECK(corners->rgba16 == std::vector<std::uint16_t>{0x0001, 0x0100, 0xFFFF, 0x8000, 0x1234, 0x5678, 0x9ABC, 0xFFFF,
+                                                      0xFFFE, 0x00FF, 0x7FFF, 0x0001, 0, 0, 0, 0});
+  CHECK_FALSE(decode_image(ramp, "ramp16.png")->is_deep());
+  CHECK_FALSE(decode_image(*encode_png(1, 1, 1, std::vector<std::uint8_t>{7}), "8", PixelBits::as_stored)->is_deep());
+}
+
+TEST_CASE("the head of a picture says its size, and lies are found without its pixels") {
+  const std::vector<std::uint8_t> rgb = noise(20 * 10 * 3);
+  const Bytes png = *encode_png(20, 10, 3, rgb);
+  for (const Bytes& whole : {png, jpeg_of(20, 10, rgb, JCS_RGB, false)}) {
+    const Result<PictureHead> head = picture_head(whole, "whole");
+    REQUIRE(head.ok());
+    CHECK(head->width_px == 20);
+    CHECK(head->height_px == 10);
+  }
+  for (std::size_t size = 0; size < png.size(); ++size) {
+    const Result<PictureHead> head = picture_head(std::span(png).first(size), "cut");
+    REQUIRE_FALSE(head.ok());
+    CHECK(head.fault().where == "cut");
+  }
+}

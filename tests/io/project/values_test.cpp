@@ -129,6 +129,23 @@ const std::vector<Bad> bad_values{
     {"/objects/0/appearance", R"({"unlit":[0,0,0],"checker":{}})", "project.conflict", ""},
     {"/objects/1/appearance/unlit", "[2,0,0]", "project.range", "/objects/1/appearance/unlit/0"},
     {"/objects/0/appearance/checker/squares", "[0,1]", "project.range", "/objects/0/appearance/checker/squares/0"},
+    {"/objects/0/appearance", R"({"image":{"file":"a.png"},"checker":{}})", "project.conflict", ""},
+    {"/objects/0/appearance", R"({"image":{"file":"a.png"},"unlit":[0,0,0]})", "project.conflict", ""},
+    {"/objects/2/appearance/image", "{}", "project.missing", "/objects/2/appearance/image/file"},
+    {"/objects/2/appearance/image/file", R"("")", "project.name", ""},
+    {"/objects/2/appearance/image/file", R"("fire.png")", "project.range", ""},
+    {"/objects/2/appearance/image/file", R"("fire_##_##.png")", "project.range", ""},
+    {"/objects/2/appearance/image/file", R"("fire_##/a.png")", "project.range", ""},
+    {"/objects/2/appearance/image/count", "0", "project.range", ""},
+    {"/objects/2/appearance/image/count", "10001", "project.range", ""},
+    {"/objects/2/appearance/image/count", "2.5", "project.type", ""},
+    {"/objects/2/appearance/image/first", "-1", "project.range", ""},
+    {"/objects/2/appearance/image/rate_hz", "0", "project.range", ""},
+    {"/objects/2/appearance/image", R"({"file":"a_#.png","count":2})", "project.missing",
+     "/objects/2/appearance/image/rate_hz"},
+    {"/objects/2/appearance/image/loop", R"("twice")", "project.word", ""},
+    {"/objects/2/appearance/image/wrap", R"("tile")", "project.word", ""},
+    {"/objects/2/appearance/image/alpha_cutoff", "1.5", "project.range", ""},
     {"/objects/0/depth", R"({"mode":"fixed"})", "project.missing", "/objects/0/depth/vergence_d"},
     {"/objects/0/depth", R"({"mode":"offset"})", "project.missing", "/objects/0/depth/vergence_d"},
     {"/objects/0/depth", R"({"mode":"slice"})", "project.missing", "/objects/0/depth/index"},
@@ -160,13 +177,16 @@ TEST_CASE("what has the right type and is wrong all the same is refused at its p
 }
 
 TEST_CASE("the schema itself refuses what a schema can express") {
-  // These need arithmetic between values, uniqueness by name, or a tolerance: beyond draft 7.
+  // These need arithmetic between values, uniqueness by name, or a tolerance: beyond draft 7. Where numbers go in a
+  // picture's name would be a pattern, and std::regex follows long texts into the depth of the stack.
   const auto beyond = [](const Bad& bad) {
     const std::string_view code = bad.code;
     const std::string_view pointer = bad.pointer;
     return code == "project.order" || code == "project.rotation" || code == "project.duplicate" ||
            pointer == "/glasses/lens_range_d" || pointer.starts_with("/sweep/m") || pointer == "/slices/powers_d" ||
-           pointer.ends_with("/drive_a") || pointer == "/lights/0" || bad.value == std::string_view(R"("a\nb")") ||
+           pointer.ends_with("/drive_a") || pointer == "/lights/0" ||
+           (pointer == "/objects/2/appearance/image/file" && bad.value != std::string_view(R"("")")) ||
+           bad.value == std::string_view(R"("a\nb")") ||
            (pointer == "/objects/1/depth/index" && bad.value == std::string_view("3"));
   };
   for (const Bad& bad : bad_values) {

@@ -96,8 +96,9 @@ TEST_CASE("damage is named by the chunk it lies in") {
   std::mt19937_64 random(1);
   AssetFile asset;
   asset.path = "noise";
-  asset.bytes.resize(5 << 19);
-  for (auto& byte : asset.bytes) byte = static_cast<std::remove_reference_t<decltype(byte)>>(random());
+  std::vector<std::byte> bytes(5 << 19);
+  for (auto& byte : bytes) byte = static_cast<std::byte>(random());
+  asset.bytes = std::move(bytes);
   asset.sha256 = hex(sha256_of(asset.bytes));
   header.assets.push_back(asset);
   write_show(path, header);
