@@ -19,9 +19,9 @@ struct PoseSample {
 
 /// What is taken for motion, and how far it is trusted.
 struct MotionLimits {
-  double window_s = 0.05;     ///< samples so old take part in the velocity; what a tracker's noise is averaged over
-  double most_gap_s = 0.1;    ///< between samples: what was before a longer one says nothing of now
-  double most_ahead_s = 0.1;  ///< of the newest sample; later than that it is predicted no further
+  double window_s = 0.05;      ///< samples so old take part in the velocity; what a tracker's noise is averaged over
+  double most_gap_s = 0.1;     ///< between samples: what was before a longer one says nothing of now
+  double most_ahead_s = 0.15;  ///< of the newest sample: more than poses take to become light; no further than that
   double most_speed_m_s = 5.0;
   double most_turn_rad_s = 20.0;  ///< faster than either from one sample to the next is a jump, not a motion
 };

@@ -22,9 +22,11 @@ Status ArucoTracker::start() {
   Result<MarkerFinder> finder = MarkerFinder::make(settings_);
   if (!finder) return finder.fault();
   finder_.emplace(std::move(*finder));
-  if (Status opened = camera_->open(); !opened) return opened;
+  const Status opened = camera_->open();
+  if (!opened && opened.fault().code != "camera.absent") return opened;
   {
     const std::lock_guard lock(mutex_);
+    absent_ = opened ? std::nullopt : std::optional(opened.fault());
     started_ = true;
     frames_ = lost_pictures_ = 0;
     newest_.reset();
@@ -57,9 +59,11 @@ void ArucoTracker::run(const std::stop_token& stop) {
     if (frame && frame != last) {
       see(*frame);
       last = frame;
-    } else if (camera_->state().phase == DevicePhase::lost && monotonic_s() - reopened_s > reopen_s) {
+    } else if (camera_->state().phase != DevicePhase::running && monotonic_s() - reopened_s > reopen_s) {
       reopened_s = monotonic_s();
-      (void)camera_->open();
+      const Status opened = camera_->open();
+      const std::lock_guard lock(mutex_);
+      absent_ = opened ? std::nullopt : std::optional(opened.fault());
     }
     std::this_thread::sleep_for(tick);
   }
@@ -96,7 +100,7 @@ TrackerState ArucoTracker::state() const {
   const bool fresh = newest_ && monotonic_s() - newest_->arrival_s <= silence_s;
   state.phase = fresh ? TrackerPhase::tracking : newest_ ? TrackerPhase::lost : TrackerPhase::seeking;
   if (fresh) return state;
-  state.fault = camera.fault;
+  state.fault = camera.fault ? camera.fault : absent_;
   if (!state.fault && newest_) {
     state.fault =
         Fault{"tracker.lost", "camera", "no picture came", "see that the camera runs, at 20 pictures a second"};

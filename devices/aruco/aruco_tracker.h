@@ -12,15 +12,15 @@
 
 namespace focalstage {
 
-/// A camera that sees markers, as a tracker. Where the camera is lost so is the tracker, and it is opened again once a
-/// second.
+/// A camera that sees markers, as a tracker. Where the camera is lost, or was not there from the start, so is the
+/// tracker, and it is opened again once a second.
 class ArucoTracker final : public Tracker {
  public:
   ArucoTracker(std::shared_ptr<Camera> camera, ArucoSettings settings)
       : camera_(std::move(camera)), settings_(std::move(settings)) {}
   ~ArucoTracker() override { stop(); }
 
-  /// "aruco.settings" and the camera's own faults.
+  /// "aruco.settings" and the camera's own faults, but for "camera.absent": it may yet be plugged in.
   Status start() override;
   void stop() override;
   std::shared_ptr<const TrackedFrame> newest() const override;
@@ -36,6 +36,7 @@ class ArucoTracker final : public Tracker {
   std::optional<MarkerFinder> finder_;  // of the thread alone
   mutable std::mutex mutex_;
   bool started_ = false;
+  std::optional<Fault> absent_;  ///< why the camera could not be opened
   std::uint64_t frames_ = 0;
   std::uint64_t lost_pictures_ = 0;
   std::shared_ptr<const TrackedFrame> newest_;

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -61,6 +62,47 @@ TEST_CASE("recorded pictures of a marker that moves are a tracker; at their end 
   tracker.stop();
   CHECK(tracker.newest() == nullptr);
   std::filesystem::remove_all(folder);
+}
+
+/// One that is plugged in after it was asked for twice.
+class LateCamera final : public Camera {
+ public:
+  Status open() override {
+    if (++asked_ < 3) return Fault{"camera.absent", "/dev/video7", "there is no camera", "see that it is plugged in"};
+    phase_ = DevicePhase::running;
+    return {};
+  }
+  void close() override { phase_ = DevicePhase::off; }
+  DeviceId id() const override { return {"late", "camera", "", "/dev/video7"}; }
+  DeviceState state() const override {
+    DeviceState state;
+    state.phase = phase_;
+    return state;
+  }
+  Status identify() override { return {}; }
+  std::shared_ptr<const CameraFrame> newest() const override {
+    if (phase_ != DevicePhase::running) return nullptr;
+    static const auto black = std::make_shared<const CameraFrame>(
+        CameraFrame{32, 32, 1, monotonic_s(), std::vector<std::uint8_t>(std::size_t{32} * 32, 0)});
+    return black;
+  }
+
+ private:
+  std::atomic<DevicePhase> phase_ = DevicePhase::off;
+  std::atomic<int> asked_ = 0;
+};
+
+TEST_CASE("a camera that is not there yet is waited for, and named") {
+  ArucoSettings settings;
+  settings.bodies = {{7, "Card", {{3, 0.1, {}}}}};
+  ArucoTracker tracker(std::make_shared<LateCamera>(), settings);
+  REQUIRE(tracker.start().ok());
+  const TrackerState waiting = tracker.state();
+  CHECK(waiting.phase == TrackerPhase::seeking);
+  REQUIRE(waiting.fault);
+  CHECK(waiting.fault->where == "/dev/video7");
+  CHECK(within(5.0, [&] { return tracker.state().frames == 1; }));
+  CHECK_FALSE(tracker.state().fault);
 }
 
 TEST_CASE("what cannot start says why") {

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-#include "tests/devices/rig/fake_devices.h"
+#include "tests/devices/rig/players_hand.h"
 
 namespace focalstage {
 namespace {
@@ -25,37 +25,10 @@ std::shared_ptr<const Score> score(std::vector<double> trigger_s = {-0.001, 0.00
   return std::make_shared<const Score>(score);
 }
 
-/// A player's hand: sweeps six ahead, the first `settle` in the dark, each lit one with a code of its own.
-struct Stand {
-  Stagehands hands;
-  Conductor conductor{test::devices_of(hands), {}};
-  std::shared_ptr<const Score> now = score();
-  double next_s = 0.1;
-  int settle = 60;
-  int code = 0;
-  bool handing = true;
-  std::optional<Fault> fault;
-
-  void run(double seconds) {
-    const double end_s = hands.now_s + seconds;
-    while (hands.now_s < end_s && !fault) {
-      while (handing && next_s < hands.now_s + 6 * period_s) hand();
-      const Status stepped = conductor.step(hands.now_s);
-      if (!stepped) fault = stepped.fault();
-      hands.run_until(hands.now_s + 0.001);
-    }
-  }
-  void hand() {
-    HandedSweep sweep{next_s, now, {}};
-    if (settle > 0) {
-      --settle;
-    } else {
-      code = code % 250 + 1;
-      for (std::size_t i = 0; i < now->trigger_s.size(); ++i) sweep.pictures.push_back(test::picture(code));
-    }
-    conductor.hand_over(std::move(sweep));
-    next_s = edge_near_s(test::devices_of(hands), next_s + period_s);
-  }
+struct Stand : test::PlayersHand<Stagehands, Conductor> {
+  Stand() : PlayersHand(score(), 60) {}
+  Stagehands& hands = room;
+  Conductor& conductor = leader;
 };
 
 std::vector<int> lit_codes(const Stagehands& hands) {
@@ -94,10 +67,9 @@ TEST_CASE("a beat that the board told of before the lens drive started is none t
   Stand stand;
   stand.run(1.95);
   REQUIRE(!stand.fault);
-  const RigDevices devices = test::devices_of(stand.hands);
-  CHECK(devices.board->dark());
-  CHECK(devices.projector->dark());
-  CHECK(devices.lens->stop());
+  CHECK(stand.devices.board->dark());
+  CHECK(stand.devices.projector->dark());
+  CHECK(stand.devices.lens->stop());
   stand.conductor.forget();
   stand.settle = 30;
   stand.next_s = stand.hands.now_s;

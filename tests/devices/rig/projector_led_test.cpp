@@ -6,8 +6,8 @@
 #include <doctest/doctest.h>
 
 #include "devices/rig/device_rig.h"
-#include "tests/devices/rig/fake_devices.h"
 #include "tests/devices/rig/master_hall.h"
+#include "tests/devices/rig/players_hand.h"
 
 namespace focalstage {
 namespace {
@@ -26,38 +26,11 @@ std::shared_ptr<const Score> score(std::vector<double> trigger_s = {0.002, 0.006
   return std::make_shared<const Score>(score);
 }
 
-/// A player's hand: sweeps six ahead, the first `settle` in the dark, each lit one with a code of its own.
-struct Stand {
-  MasterHall hall;
-  RigDevices devices = test::devices_of(hall);
-  ProjectorLed led{devices, {}};
-  std::shared_ptr<const Score> now = score();
-  double next_s = 0.1;
-  int settle = 480;
-  int code = 0;
-  bool handing = true;
-  std::optional<Fault> fault;
+struct Stand : test::PlayersHand<MasterHall, ProjectorLed> {
+  Stand() : PlayersHand(score(), 480) {}
+  MasterHall& hall = room;
+  ProjectorLed& led = leader;
 
-  void run(double seconds) {
-    const double end_s = hall.now_s + seconds;
-    while (hall.now_s < end_s && !fault) {
-      while (handing && next_s < hall.now_s + 6 * show_period_s) hand();
-      const Status stepped = led.step(hall.now_s);
-      if (!stepped) fault = stepped.fault();
-      hall.run_until(hall.now_s + 0.001);
-    }
-  }
-  void hand() {
-    HandedSweep sweep{next_s, now, {}};
-    if (settle > 0) {
-      --settle;
-    } else {
-      code = code % 250 + 1;
-      for (std::size_t i = 0; i < now->trigger_s.size(); ++i) sweep.pictures.push_back(test::picture(code));
-    }
-    led.hand_over(std::move(sweep));
-    next_s = edge_near_s(devices, next_s + show_period_s);
-  }
   std::vector<MasterHall::Shown> lit() const {
     std::vector<MasterHall::Shown> found;
     std::ranges::copy_if(hall.shown, std::back_inserter(found), [](const auto& shown) { return shown.code > 0; });
