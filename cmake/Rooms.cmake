@@ -15,6 +15,7 @@ focalstage_room(core/schedule   USES core/optics core/scene)
 focalstage_room(core/percept    USES core/retina core/schedule core/compile core/optics core/stage PRIVATE_LIBS TBB::tbb)
 focalstage_room(core/tracking   USES core/scene core/base)
 focalstage_room(core/study      USES core/base)
+focalstage_room(core/rig_measure USES core/scene core/base          PRIVATE_LIBS Eigen3::Eigen)
 focalstage_room(core/stripes    USES core/base                     PRIVATE_LIBS Eigen3::Eigen)
 focalstage_room(core/calibrate  USES core/stripes core/optics core/stage core/scene core/base
                                 PRIVATE_LIBS opencv::aruco opencv::calib3d opencv::core Eigen3::Eigen)
@@ -34,8 +35,8 @@ focalstage_room(io/show         USES io/project io/assets io/files core/schedule
 focalstage_room(io/export       USES io/show io/image io/files      PRIVATE_LIBS TBB::tbb)
 focalstage_room(io/plot         USES core/base                     PRIVATE_LIBS cairo::cairo)
 focalstage_room(io/credentials  USES io/files core/base            PRIVATE_LIBS OpenSSL::Crypto OpenSSL::SSL)
-focalstage_room(io/protocol     USES io/credentials io/project io/assets io/json io/files core/check core/compile core/scene)
-focalstage_room(io/rig_config   USES io/project io/json io/files core/scene core/base)
+focalstage_room(io/protocol     USES io/credentials io/project io/assets io/json io/files core/check core/compile core/rig_measure core/scene)
+focalstage_room(io/rig_config   USES io/project io/json io/files core/rig_measure core/scene core/base)
 
 # devices: the rig; drivers see only core
 focalstage_room(devices/roles   USES core/base)
