@@ -27,7 +27,7 @@ struct LensFitTask {
 };
 
 struct LensFit {
-  Measured rest_power_d;
+  Estimate rest_power_d;
   std::vector<MeasuredHarmonic> lens;  ///< from 0 on
   double residual_d = 0.0;             ///< root mean square over the crossings
   int crossings = 0;

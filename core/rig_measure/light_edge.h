@@ -7,8 +7,8 @@
 namespace focalstage {
 
 struct LightEdge {
-  Measured latency_ms;  ///< from the trigger to the middle of the rise
-  Measured rise_ms;     ///< 10 to 90 %, projector and sensor together
+  Estimate latency_ms;  ///< from the trigger to the middle of the rise
+  Estimate rise_ms;     ///< 10 to 90 %, projector and sensor together
 };
 
 /// When the light of one exposure comes, after its trigger at `trigger_s`. The middle of a rise is where as much light

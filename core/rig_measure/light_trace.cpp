@@ -148,6 +148,7 @@ Result<FullLight> FullLight::make(const LightTraces& lit, const DarkLight& dark,
                      percent(full.swing_),
                  "turn off lamps on mains, shield the sensor's cable"};
   }
+  full.level_spread_ = dark.noise / full.swing_ / std::sqrt(static_cast<double>(lit.size()));
   return full;
 }
 

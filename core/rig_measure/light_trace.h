@@ -51,6 +51,9 @@ class FullLight {
   std::vector<LightPoint> shares(const LightTraces& traces) const;
 
   double swing() const { return swing_; }  ///< of the sensor's range
+  double level_spread() const {
+    return level_spread_;
+  }  ///< of its level, as a share of it: noise and hum of each trace
   double from_s() const { return times_.front(); }
   double to_s() const { return times_.back(); }
 
@@ -59,6 +62,7 @@ class FullLight {
 
   double dark_ = 0.0;
   double swing_ = 0.0;
+  double level_spread_ = 0.0;
   double first_s_ = 0.0;
   double step_s_ = 0.0;
   std::vector<double> times_;

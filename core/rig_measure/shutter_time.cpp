@@ -11,6 +11,7 @@ namespace focalstage {
 namespace {
 
 constexpr int groups = 8;
+constexpr double nothing_seen = 0.03;    // of the range: noise and hum
 constexpr double most_leak = 0.2;        // of the open light, through a closed shutter
 constexpr double least_open = 0.85;      // of the reference, through an open one
 constexpr double most_unsettled = 0.03;  // change between the last two eighths of what was seen
@@ -94,8 +95,8 @@ double gap_at(const std::vector<LightPoint>& points, double time_s) {
 
 }  // namespace
 
-Result<Measured> shutter_time_ms(const std::vector<LightPoint>& shares, const ShutterChange& change, double step_s,
-                                 const std::string& where) {
+Result<Estimate> shutter_time_ms(const std::vector<LightPoint>& shares, const ShutterChange& change,
+                                 const ShutterLook& look, const std::string& where) {
   const double before_s = change.told_s - 0.1 * (change.until_s - change.told_s);
   const Result<Levels> levels = levels_of(shares, change, before_s, where);
   if (!levels) return levels.fault();
@@ -111,12 +112,15 @@ Result<Measured> shutter_time_ms(const std::vector<LightPoint>& shares, const Sh
   for (const double part : parts) squares += (part - mean) * (part - mean);
   const double repeats_s = std::sqrt(squares * (groups - 1) / groups);
   // The shifted traces see between each other's samples: what is left is a part of a step, and gaps in the light.
-  const double grid_s = step_s / 8.0;
+  const double grid_s = look.step_s / 8.0;
   const double gaps_s = std::hypot(gap_at(all, run.early_s), gap_at(all, run.late_s)) / std::sqrt(12.0);
-  return Measured{1e3 * (run.end_s - change.told_s), 1e3 * std::hypot(repeats_s, grid_s, gaps_s)};
+  const double level_s = look.level_spread * (run.late_s - run.early_s) / 0.8;
+  const double known_s = std::hypot(grid_s, gaps_s, std::hypot(level_s, look.delay_spread_s));
+  return Estimate{1e3 * (run.end_s - change.told_s), 1e3 * std::hypot(repeats_s, known_s)};
 }
 
 Status own_side(double own_swing, double other_swing, const std::string& where) {
+  if (other_swing < nothing_seen) return {};
   if (other_swing > 3.0 * own_swing) {
     return Fault{"measure.swapped", where, "the sensor of the other eye answers to this shutter",
                  "swap the two sensors, or the two shutters' lines"};

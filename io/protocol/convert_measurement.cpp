@@ -4,14 +4,14 @@ namespace focalstage {
 
 namespace {
 
-v1::Measured message_from(const Measured& measured) {
+v1::Measured message_from(const Estimate& measured) {
   v1::Measured message;
   message.set_value(measured.value);
   message.set_spread(measured.spread);
   return message;
 }
 
-Measured measured_from(const v1::Measured& message) { return {message.value(), message.spread()}; }
+Estimate measured_from(const v1::Measured& message) { return {message.value(), message.spread()}; }
 
 v1::MeasuredEye message_from(const MeasuredEye& eye) {
   v1::MeasuredEye message;

@@ -29,11 +29,11 @@ struct Bench {
     return full->shares(bench::record(
         now, [&](double t) { return train(t) * (leak + (1.0 - leak) * transmission(t)); }, 0.0, 360));
   }
-  Result<Measured> opens() const {
-    return shutter_time_ms(shares(), {true, open_told_s, close_told_s}, sensor.step_s, "left shutter");
+  Result<Estimate> opens() const {
+    return shutter_time_ms(shares(), {true, open_told_s, close_told_s}, {sensor.step_s, 0.0, 0.0}, "left shutter");
   }
-  Result<Measured> closes() const {
-    return shutter_time_ms(shares(), {false, close_told_s, 0.0091}, sensor.step_s, "left shutter");
+  Result<Estimate> closes() const {
+    return shutter_time_ms(shares(), {false, close_told_s, 0.0091}, {sensor.step_s, 0.0, 0.0}, "left shutter");
   }
 };
 

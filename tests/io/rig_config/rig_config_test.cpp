@@ -24,7 +24,7 @@ constexpr const char* whole = R"({
                 "bodies": [{"name": "wand", "id": 3, "body_from_thing": {"position_m": [0, 0, 0.1]},
                             "markers": [{"marker": 7, "size_m": 0.05, "body_from_marker": {"rotation_xyzw": [1, 0, 0, 0]}}]},
                            {"name": "table", "board": {"squares_x": 5, "squares_y": 7, "square_m": 0.04, "marker_m": 0.03}}]},
-    "light_sensor": {"driver": "uno_light", "serial": "L1", "settings": {"left_input": 2},
+    "light_sensor": {"driver": "uno", "serial": "L1", "settings": {"left_input": 2},
                      "targets": [{"power_d": -1.2, "left_px": [10, 20, 4, 300], "right_px": [610, 20, 4, 300]},
                                  {"power_d": 0.9, "spread_d": 0.02, "left_px": [11, 20, 4, 300], "right_px": [611, 20, 4, 300]}]}
   },
@@ -95,7 +95,7 @@ TEST_CASE("everything the file says arrives") {
   CHECK(tracker.bodies[0] == BodyConfig{"wand", 3, {{7, 0.05, {{}, {0, 1, 0, 0}}}}, {}, {{0, 0, 0.1}, {1, 0, 0, 0}}});
   CHECK(tracker.bodies[1] == BodyConfig{"table", {}, {}, BodyBoardConfig{5, 7, 0.04, 0.03}, {}});
   REQUIRE(config.devices.light_sensor);
-  CHECK(config.devices.light_sensor->device == DeviceConfig{"uno_light", "L1", "", {{"left_input", 2.0}}});
+  CHECK(config.devices.light_sensor->device == DeviceConfig{"uno", "L1", "", {{"left_input", 2.0}}});
   CHECK(config.devices.light_sensor->targets ==
         std::vector<LightTargetConfig>{{-1.2, 0.01, {{10, 20, 4, 300}, {610, 20, 4, 300}}},
                                        {0.9, 0.02, {{11, 20, 4, 300}, {611, 20, 4, 300}}}});
