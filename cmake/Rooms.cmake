@@ -15,6 +15,7 @@ focalstage_room(core/schedule   USES core/optics core/scene)
 focalstage_room(core/percept    USES core/retina core/schedule core/compile core/optics core/stage PRIVATE_LIBS TBB::tbb)
 focalstage_room(core/tracking   USES core/scene core/base)
 focalstage_room(core/study      USES core/base)
+focalstage_room(core/rig_measure USES core/scene core/base          PRIVATE_LIBS Eigen3::Eigen)
 focalstage_room(core/stripes    USES core/base                     PRIVATE_LIBS Eigen3::Eigen)
 focalstage_room(core/calibrate  USES core/stripes core/optics core/stage core/scene core/base
                                 PRIVATE_LIBS opencv::aruco opencv::calib3d opencv::core Eigen3::Eigen)
@@ -34,8 +35,8 @@ focalstage_room(io/show         USES io/project io/assets io/files core/schedule
 focalstage_room(io/export       USES io/show io/image io/files      PRIVATE_LIBS TBB::tbb)
 focalstage_room(io/plot         USES core/base                     PRIVATE_LIBS cairo::cairo)
 focalstage_room(io/credentials  USES io/files core/base            PRIVATE_LIBS OpenSSL::Crypto OpenSSL::SSL)
-focalstage_room(io/protocol     USES io/credentials io/project io/assets io/json io/files core/check core/compile core/scene)
-focalstage_room(io/rig_config   USES io/project io/json io/files core/scene core/base)
+focalstage_room(io/protocol     USES io/credentials io/project io/assets io/json io/files core/check core/compile core/rig_measure core/scene)
+focalstage_room(io/rig_config   USES io/project io/json io/files core/rig_measure core/scene core/base)
 
 # devices: the rig; drivers see only core
 focalstage_room(devices/roles   USES core/base)
@@ -62,8 +63,8 @@ focalstage_room(devices/uno     USES devices/serial devices/roles core/base)
 focalstage_room(devices/catalog USES devices/uno devices/mcc1208 devices/plugin devices/natnet devices/recording devices/aruco devices/camera
                                      devices/lightcrafter devices/display_kms devices/display devices/optotune devices/serial devices/rig devices/roles io/rig_config core/scene core/base)
 focalstage_room(devices/runtime USES devices/catalog devices/rig devices/player devices/sim devices/recording devices/roles io/show io/project io/assets
-                                     io/json io/models io/protocol io/credentials io/rig_config io/files core/check core/compile core/schedule core/stage
-                                     core/tracking
+                                     io/json io/models io/protocol io/credentials io/rig_config io/files core/check core/compile core/rig_measure core/schedule
+                                     core/stage core/tracking
                                 PRIVATE_LIBS spdlog::spdlog gRPC::grpc++ gRPC::grpc++_reflection)
 # C for a microcontroller, a program of its own: on this side only its tests
 focalstage_room(devices/firmware)
@@ -76,7 +77,7 @@ focalstage_room(editor/pipeline USES io/models io/project io/assets io/show core
                                      core/schedule)
 focalstage_room(editor/trials   USES editor/pipeline io/study io/protocol io/show io/project core/study)
 focalstage_room(editor/cli      USES editor/samples editor/pipeline editor/trials io/study io/models io/project io/assets io/show io/export io/plot
-                                     io/credentials io/protocol io/image core/calibrate core/check core/reference core/sensitivity core/compile core/percept
+                                     io/credentials io/protocol io/image core/calibrate core/rig_measure core/check core/reference core/sensitivity core/compile core/percept
                                      core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)
 focalstage_room(editor/document USES editor/samples io/journal io/models io/project io/assets io/files core/scene)

@@ -15,6 +15,10 @@ void fs_engine_heard_host(void);
 /// Once per darkness that was not told: its reason; else 0.
 uint8_t fs_engine_dark_unsaid(void);
 
+/// Begins what fs_light_look asked for, once its time has come; not idle while it waits for that.
+void fs_light_poll(void);
+bool fs_light_idle(void);
+
 /// 115200 baud, a ring each way between interrupts and the main loop.
 void fs_uart_start(void);
 bool fs_uart_take(char* byte);

@@ -1,5 +1,7 @@
 #include "devices/firmware/command.h"
 
+#include "devices/firmware/light.h"
+
 static bool is_word(const char* word, uint8_t length, const char* expected) {
   for (uint8_t i = 0; i < length; ++i) {
     if (word[i] != expected[i]) {
@@ -101,6 +103,53 @@ static void tell_status(const struct fs_conversation* talk, struct fs_line_write
   }
 }
 
+static enum fs_error look(const char* at) {
+  uint16_t input = 0;
+  uint16_t after = 0;
+  uint16_t samples = 0;
+  if (!fs_take_number(&at, &input) || !take_two(&at, &after, &samples)) {
+    return FS_UNKNOWN;
+  }
+  return fs_light_look(input, after, samples);
+}
+
+static void tell_light(struct fs_line_writer* answer) {
+  struct fs_light light;
+  fs_light_status(&light);
+  fs_line_text(answer, "OK ");
+  fs_line_number(answer, light.state);
+  fs_line_text(answer, " ");
+  fs_line_number(answer, light.after);
+  fs_line_text(answer, " ");
+  fs_line_number(answer, light.samples);
+}
+
+// Up to 16 samples in one line, three hex digits each.
+#define SAMPLES_PER_LINE 16u
+
+static enum fs_error tell_samples(const char* at, struct fs_line_writer* answer) {
+  static const char digits[] = "0123456789ABCDEF";
+  uint16_t from = 0;
+  if (!fs_take_number(&at, &from) || *at) {
+    return FS_UNKNOWN;
+  }
+  struct fs_light light;
+  fs_light_status(&light);
+  if (light.state != FS_LIGHT_WHOLE) {
+    return FS_NOT_NOW;
+  }
+  if (from >= light.samples) {
+    return FS_RANGE;
+  }
+  fs_line_text(answer, "OK ");
+  for (uint16_t i = from; i < light.samples && i < from + SAMPLES_PER_LINE; ++i) {
+    const uint16_t value = fs_light_sample(i);
+    const char text[4] = {digits[value >> 8 & 15u], digits[value >> 4 & 15u], digits[value & 15u], '\0'};
+    fs_line_text(answer, text);
+  }
+  return FS_OK;
+}
+
 static void tell_lens(struct fs_line_writer* answer) {
   struct fs_lens lens;
   fs_engine_lens(&lens);
@@ -130,6 +179,8 @@ static void ask(const struct fs_conversation* talk, const char* name, uint8_t le
     tell_status(talk, answer);
   } else if (is_word(name, length, "LENS")) {
     tell_lens(answer);
+  } else if (is_word(name, length, "SEEN")) {
+    tell_light(answer);
   } else if (is_word(name, length, "TEST")) {
     uint8_t failed = 0;
     const enum fs_error error = fs_engine_test(&failed);
@@ -170,6 +221,13 @@ void fs_command(struct fs_conversation* talk, const char* line, struct fs_line_w
     finish(answer, arm(at));
   } else if (is_word(name, length, "POL")) {
     finish(answer, set_polarity(at));
+  } else if (is_word(name, length, "LOOK")) {
+    finish(answer, look(at));
+  } else if (is_word(name, length, "DATA")) {
+    const enum fs_error error = tell_samples(at, answer);
+    if (error != FS_OK) {
+      finish(answer, error);
+    }
   } else if (is_word(name, length, "SAFE")) {
     fs_engine_dark(FS_TOLD);  // whatever else the line says
     finish(answer, FS_OK);

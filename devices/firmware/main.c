@@ -55,7 +55,7 @@ static void tell_darkness(void) {
 // instruction pass.
 static void doze(void) {
   cli();
-  if (fs_engine_idle() && fs_uart_idle()) {
+  if (fs_engine_idle() && fs_light_idle() && fs_uart_idle()) {
     sei();
     sleep_cpu();
   }
@@ -76,6 +76,7 @@ int main(void) {
   send(&banner);
   for (;;) {
     fs_engine_poll();
+    fs_light_poll();
     hear(&reader, &talk);
     tell_darkness();
     doze();

@@ -15,7 +15,8 @@ target_link_libraries(focalstage_devices_firmware INTERFACE focalstage_firmware_
 # The chip's own program: build/<preset>/firmware/focalstage-uno.elf and .hex.
 set(firmware_folder ${PROJECT_SOURCE_DIR}/devices/firmware)
 file(GLOB firmware_headers CONFIGURE_DEPENDS ${firmware_folder}/*.h)
-set(firmware_sources ${firmware_pure} ${firmware_folder}/engine.c ${firmware_folder}/uart.c ${firmware_folder}/main.c)
+set(firmware_sources ${firmware_pure} ${firmware_folder}/engine.c ${firmware_folder}/light.c
+                     ${firmware_folder}/uart.c ${firmware_folder}/main.c)
 set(firmware ${PROJECT_BINARY_DIR}/firmware/focalstage-uno)
 file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/firmware)
 add_custom_command(

@@ -152,6 +152,14 @@ void Player::blackout(double now_s, const std::optional<Fault>& fault) {
   if (next_show_) begin(next_show_);
 }
 
+void Player::put(std::shared_ptr<const LoadedShow> show) {
+  if (running()) return;
+  if (show) return begin(std::move(show));
+  show_.reset();
+  next_show_.reset();
+  if (state_ == PlayState::ready) state_ = PlayState::empty;
+}
+
 void Player::advance() {
   ++sweeps_;
   if (state_ != PlayState::playing) return;

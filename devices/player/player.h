@@ -69,6 +69,9 @@ class Player {
   /// Light off now; latched until `go`. Whatever was handed over for later is lost.
   void blackout(double now_s, const std::optional<Fault>& fault = std::nullopt);
 
+  /// Puts another show, or none, in the place of what is there, while nothing plays.
+  void put(std::shared_ptr<const LoadedShow> show);
+
   /// Sweeps are to be handed over: playing or holding.
   bool running() const { return state_ == PlayState::playing || state_ == PlayState::holding; }
 

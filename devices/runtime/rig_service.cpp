@@ -53,6 +53,8 @@ RigState RigService::values() const {
     state.pose_to_light_ms = 1e3 * tracking_->delay()->pose_to_light_s();
     state.parts.push_back(report_of(tracking_->part()));
   }
+  if (const auto& sensor = settings_.rig.light_sensor)
+    state.parts.push_back(report_of({sensor->id(), sensor->state()}));
   return state;
 }
 
@@ -67,8 +69,7 @@ RuntimeFigures RigService::figures() const {
 }
 
 RigTerms RigService::terms() const {
-  return {[settings = settings_](double hz) { return settings.rig.describe(settings.limits, hz); }, settings_.limits,
-          settings_.models};
+  return {[this](double hz) { return measured_.describe(hz); }, settings_.limits, settings_.models};
 }
 
 Status RigService::operate(const DeskCommand& command, bool despite_lease) {
@@ -77,6 +78,9 @@ Status RigService::operate(const DeskCommand& command, bool despite_lease) {
   const auto obey = [&]() -> Status {
     if (command.kind != Kind::blackout && !despite_lease && !holder.empty()) {
       return Fault{"rig.held", holder, "an editor holds the rig", "wait until it lets go; blackout is always obeyed"};
+    }
+    if (command.kind != Kind::blackout) {
+      if (Status free = not_measuring(); !free) return free;
     }
     switch (command.kind) {
       case Kind::play:
@@ -109,6 +113,7 @@ grpc::Status RigService::held(const grpc::ServerContext* context, const std::str
                               Step step) {
   if (Status may = guard_.admit(*context, Right::control); !may) return refused("command", may.fault());
   if (Status mine = desk_.use(token); !mine) return status_from(mine.fault());
+  if (Status free = not_measuring(); !free) return refused("command", free.fault());
   if (Status done = step(); !done) return refused("command", done.fault());
   *reply = state();
   return grpc::Status::OK;
@@ -128,7 +133,7 @@ grpc::Status RigService::Describe(grpc::ServerContext* context, const v1::Descri
   if (Status may = guard_.admit(*context, Right::watch); !may) return refused("describe", may.fault());
   const double asked_hz = request->frequency_hz();
   const double frequency_hz = std::isfinite(asked_hz) && asked_hz > 0.0 ? asked_hz : 60.0;
-  *reply = message_from(settings_.rig.describe(settings_.limits, frequency_hz));
+  *reply = message_from(measured_.describe(frequency_hz));
   return grpc::Status::OK;
 }
 
@@ -281,6 +286,10 @@ grpc::Status RigService::Live(grpc::ServerContext* context,
   if (Status mine = desk_.use(first.begin().token()); !mine) return status_from(mine.fault());
   if (live_.exchange(true)) {
     return refused("live", {"rig.refused", "live", "a live link is open already", "end that one first"});
+  }
+  if (Status free = not_measuring(); !free) {
+    live_ = false;
+    return refused("live", free.fault());
   }
   const Counted watching(watchers_);
   spdlog::info("{} is live", desk_.holder());

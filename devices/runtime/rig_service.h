@@ -13,6 +13,7 @@
 #include "devices/runtime/lease.h"
 #include "devices/runtime/live_frames.h"
 #include "devices/runtime/live_tracking.h"
+#include "devices/runtime/measured_values.h"
 #include "devices/runtime/rig_thread.h"
 #include "devices/runtime/show_store.h"
 #include "focalstage/v1/rig.grpc.pb.h"
@@ -25,7 +26,7 @@ class RigService final : public v1::Rig::Service {
  public:
   RigService(const RigThreadSettings& settings, ShowStore& store, AssetStore& assets, LiveFrames& frames,
              RigThread& rig, LeaseDesk& desk, Guard& guard, DeviceDrivers drivers, double push_bytes_per_s,
-             LiveTracking* tracking)
+             LiveTracking* tracking, MeasuredValues& measured)
       : settings_(settings),
         store_(store),
         assets_(assets),
@@ -35,7 +36,8 @@ class RigService final : public v1::Rig::Service {
         guard_(guard),
         drivers_(std::move(drivers)),
         push_pace_(push_bytes_per_s, push_bytes_per_s),
-        tracking_(tracking) {}
+        tracking_(tracking),
+        measured_(measured) {}
 
   /// Ends all watching and live links, so that the server can go.
   void stop() { stopping_ = true; }
@@ -62,6 +64,8 @@ class RigService final : public v1::Rig::Service {
   grpc::Status Blackout(grpc::ServerContext*, const v1::BlackoutRequest*, v1::RigState*) override;
   grpc::Status ListDevices(grpc::ServerContext*, const v1::ListDevicesRequest*, v1::DeviceList*) override;
   grpc::Status Identify(grpc::ServerContext*, const v1::IdentifyRequest*, v1::IdentifyReply*) override;
+  grpc::Status SelfTest(grpc::ServerContext*, const v1::SelfTestRequest*,
+                        grpc::ServerWriter<v1::SelfTestReply>*) override;
   grpc::Status GetState(grpc::ServerContext*, const v1::GetStateRequest*, v1::RigState*) override;
   grpc::Status Watch(grpc::ServerContext*, const v1::WatchRequest*, grpc::ServerWriter<v1::RigState>*) override;
   grpc::Status Live(grpc::ServerContext*, grpc::ServerReaderWriter<v1::LiveReply, v1::LiveRequest>*) override;
@@ -71,6 +75,7 @@ class RigService final : public v1::Rig::Service {
   v1::RigState state() const { return message_from(values()); }
   grpc::Status refused(const char* call, const Fault& fault);
   RigTerms terms() const;
+  Status not_measuring() const;
   void keep_pace(const grpc::ServerContext& context, std::size_t bytes);
   template <class Step>
   grpc::Status held(const grpc::ServerContext* context, const std::string& token, v1::RigState* reply, Step step);
@@ -86,8 +91,10 @@ class RigService final : public v1::Rig::Service {
   std::mutex asking_drivers_;
   RateLimit push_pace_;
   LiveTracking* tracking_;  ///< null: no tracker
+  MeasuredValues& measured_;
   std::atomic<bool> stopping_ = false;
   std::atomic<bool> live_ = false;
+  std::atomic<bool> measuring_ = false;
   std::atomic<int> watchers_ = 0;
   std::atomic<std::uint64_t> push_bytes_ = 0;
   FaultTally refusals_;

@@ -235,6 +235,13 @@ void RigThread::blackout() {
   changed_.notify_all();
 }
 
+void RigThread::end_measuring(std::shared_ptr<const LoadedShow> before) {
+  blackout();
+  const auto lock = take_turn();
+  player_.put(std::move(before));
+  ledger_.forget();
+}
+
 void RigThread::doubt(const Fault& fault) {
   const auto lock = take_turn();
   make_dark(fault);

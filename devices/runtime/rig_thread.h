@@ -47,6 +47,9 @@ class RigThread {
   /// The same without waiting, for a show whose frames are there: one that comes before it was shown takes its place.
   void present(std::shared_ptr<const LoadedShow> show);
 
+  /// Dark, and this show (or none) in the place of what was presented to measure by.
+  void end_measuring(std::shared_ptr<const LoadedShow> before);
+
   Status play(std::uint64_t sweeps);
   Status hold();
   Status cue(const std::string& name);

@@ -18,9 +18,11 @@ double guessed_lead_s(const RigThreadSettings& rig) { return rig.sweeps_ahead / 
 }  // namespace
 
 struct Runtime::State {
-  State(const RuntimeOptions& options, std::unique_ptr<ShowStore> shows, std::unique_ptr<AssetStore> blobs)
+  State(const RuntimeOptions& options, std::unique_ptr<ShowStore> shows, std::unique_ptr<AssetStore> blobs,
+        std::unique_ptr<MeasuredValues> values)
       : store(std::move(shows)),
         assets(std::move(blobs)),
+        measured(std::move(values)),
         frames(options.store),
         desk(options.lease),
         rig(options.rig),
@@ -30,10 +32,11 @@ struct Runtime::State {
                                                       [this](const Fault& fault) { rig.doubt_what_plays(fault); })
                      : nullptr),
         service(options.rig, *store, *assets, frames, rig, desk, guard, options.drivers,
-                options.network.push_bytes_per_s, tracking.get()) {}
+                options.network.push_bytes_per_s, tracking.get(), *measured) {}
 
   std::unique_ptr<ShowStore> store;  // holds the folder's lock
   std::unique_ptr<AssetStore> assets;
+  std::unique_ptr<MeasuredValues> measured;
   LiveFrames frames;
   LeaseDesk desk;
   RigThread rig;
@@ -59,7 +62,10 @@ Result<Runtime> Runtime::start(const RuntimeOptions& asked) {
   if (!store) return store.fault();
   Result<std::unique_ptr<AssetStore>> assets = AssetStore::open(options.store);
   if (!assets) return assets.fault();
-  auto state = std::make_unique<State>(options, std::move(*store), std::move(*assets));
+  Result<std::unique_ptr<MeasuredValues>> measured =
+      MeasuredValues::open(options.store, [rig = options.rig](double hz) { return rig.rig.describe(rig.limits, hz); });
+  if (!measured) return measured.fault();
+  auto state = std::make_unique<State>(options, std::move(*store), std::move(*assets), std::move(*measured));
   if (state->tracking) {
     if (Status started = state->tracking->start(); !started) return started.fault();
   }

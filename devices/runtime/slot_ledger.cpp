@@ -104,6 +104,13 @@ void SlotLedger::call_off_after(double time_s) {
   while (!asked_.empty() && asked_.back().start_s + asked_.back().show->plan.period_s > time_s) asked_.pop_back();
 }
 
+void SlotLedger::forget() {
+  show_.reset();
+  asked_.clear();
+  delivered_.clear();
+  slots_.clear();
+}
+
 std::uint64_t SlotLedger::take_faulty_sweeps() { return std::exchange(faulty_, 0); }
 
 }  // namespace focalstage

@@ -35,6 +35,9 @@ class SlotLedger {
   /// What was asked for after `time_s` was called off.
   void call_off_after(double time_s);
 
+  /// What was asked by a show that is gone and was none of anybody's.
+  void forget();
+
   const std::vector<SlotReport>& slots() const { return slots_; }
   std::uint64_t missed() const { return missed_; }
 

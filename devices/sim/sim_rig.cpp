@@ -13,10 +13,13 @@ constexpr double remembered_s = 0.25;
 constexpr int looks = 16;
 }  // namespace
 
-SimRig::SimRig(const SimSettings& settings, const SimFaults& faults)
+SimRig::SimRig(const SimSettings& settings, const SimFaults& faults, std::shared_ptr<SimLightSensor> sensor)
     : lens_{SimLens(settings.lens.left), SimLens(settings.lens.right)},
       shutter_{SimShutter(settings.shutter), SimShutter(settings.shutter)},
-      projector_(settings.projector) {
+      projector_(settings.projector),
+      sensor_(std::move(sensor)),
+      width_px_(settings.width_px),
+      height_px_(settings.height_px) {
   for (const Side eye : both_sides) {
     lens_[eye].add_lag(faults.lens_lag_s);
     lens_[eye].scale_gain(faults.lens_gain);
@@ -25,7 +28,10 @@ SimRig::SimRig(const SimSettings& settings, const SimFaults& faults)
   if (faults.drop_trigger) projector_.drop_trigger_after(*faults.drop_trigger);
 }
 
-void SimRig::set_exposure(double exposure_s, PictureForm) { next_edge_.exposure_s = exposure_s; }
+void SimRig::set_exposure(double exposure_s, PictureForm form) {
+  next_edge_.exposure_s = exposure_s;
+  form_ = form;
+}
 
 void SimRig::set_drive(Side eye, std::span<const double> drive_a, double step_s) {
   next_edge_.drive[eye] = Drive{{drive_a.begin(), drive_a.end()}, step_s};
@@ -52,6 +58,7 @@ void SimRig::dark(double time_s) {
   projector_.forget_posted();
   std::erase_if(running_, [&](const StartedExposure& exposure) { return exposure.start_s >= time_s; });
   for (StartedExposure& exposure : running_) exposure.duration_s = time_s - exposure.start_s;
+  for (Lit& lit : lit_) lit.exposure.duration_s = std::min(lit.exposure.duration_s, time_s - lit.exposure.start_s);
   for (const Side eye : both_sides) {
     shutter_[eye].command(ShutterLevel::closed, time_s);
     lens_[eye].stop(time_s);
@@ -66,6 +73,8 @@ void SimRig::run_until(double time_s) {
     std::visit([&, at_s = next.key()](auto& event) { happen(at_s, event); }, next.mapped());
   }
   end_exposures(time_s);
+  if (sensor_) sensor_->look(time_s, [this](Side eye, double at_s) { return seen(eye, at_s); });
+  while (!lit_.empty() && lit_.front().exposure.start_s < time_s - remembered_s) lit_.pop_front();
   for (const Side eye : both_sides) {
     shutter_[eye].forget_before(time_s - remembered_s);
     lens_[eye].forget_before(time_s - remembered_s);
@@ -73,6 +82,7 @@ void SimRig::run_until(double time_s) {
 }
 
 void SimRig::happen(double time_s, EdgeEvent& edge) {
+  if (sensor_) sensor_->sync_edge(time_s);
   if (edge.exposure_s) projector_.set_exposure(*edge.exposure_s);
   projector_.sync_edge();
   for (const Side eye : both_sides) {
@@ -85,7 +95,10 @@ void SimRig::happen(double time_s, EdgeEvent& edge) {
 }
 
 void SimRig::happen(double time_s, TriggerEvent&) {
-  if (auto started = projector_.trigger(time_s)) running_.push_back(std::move(*started));
+  auto started = projector_.trigger(time_s);
+  if (!started) return;
+  if (sensor_) lit_.push_back({*started, {}});
+  running_.push_back(std::move(*started));
 }
 
 void SimRig::happen(double time_s, ShutterEvent& event) { shutter_[event.eye].command(event.level, time_s); }
@@ -106,6 +119,27 @@ void SimRig::end_exposures(double time_s) {
     delivered_.push_back(std::move(light));
   }
   std::erase_if(running_, ended);
+}
+
+/// Through shutter and lens onto the slit of that eye's sensor: all of a wide field whatever the power, and of a line
+/// what its defocus leaves, a share that falls as the slit's width over the line's.
+double SimRig::seen(Side eye, double time_s) {
+  const SimLightSettings& bench = sensor_->settings();
+  double light = 0.0;
+  for (Lit& lit : lit_) {
+    const double since_s = time_s - lit.exposure.start_s;
+    if (since_s < 0.0 || since_s >= lit.exposure.duration_s) continue;
+    if (!lit.brightness) {
+      lit.brightness = brightness_of(lit.exposure.picture, form_, width_px_, height_px_, bench.lines.size());
+    }
+    light += bench.white * lit.brightness->field;
+    for (std::size_t k = 0; k < bench.lines.size(); ++k) {
+      const double beyond = std::max(0.0, lit.brightness->line[k][eye] - lit.brightness->field);
+      const double off_d = lens_[eye].power_d(time_s) - bench.lines[k].power_d - bench.lines[k].off_d;
+      light += bench.line * beyond / std::sqrt(1.0 + off_d * off_d / (bench.slit_d * bench.slit_d));
+    }
+  }
+  return light * shutter_[eye].at(time_s);
 }
 
 double SimRig::smear_d(Side eye, double from_s, double to_s) {

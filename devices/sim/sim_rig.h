@@ -1,13 +1,16 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
 
 #include "devices/roles/rig.h"
 #include "devices/sim/sim_lens.h"
+#include "devices/sim/sim_light.h"
 #include "devices/sim/sim_projector.h"
 #include "devices/sim/sim_shutter.h"
 
@@ -18,6 +21,7 @@ struct SimSettings {
   PerEye<SimLensSettings> lens{{38.0, 0.0006, 0.0001}, {37.5, 0.00065, 0.0001}};
   SimShutterSettings shutter;
   SimProjectorSettings projector;
+  std::optional<SimLightSettings> light = SimLightSettings{};  ///< none: no light sensor
   int width_px = 1024;
   int height_px = 768;
 };
@@ -34,7 +38,9 @@ struct SimFaults {
 /// Deterministic; its clock is moved on by `run_until` alone.
 class SimRig final : public Rig {
  public:
-  explicit SimRig(const SimSettings& settings = {}, const SimFaults& faults = {});
+  /// `sensor`: looks at its light; none: nobody does.
+  explicit SimRig(const SimSettings& settings = {}, const SimFaults& faults = {},
+                  std::shared_ptr<SimLightSensor> sensor = nullptr);
 
   void set_exposure(double exposure_s, PictureForm) override;
   void announce_triggers(std::span<const double>) override {}  // it waits for each
@@ -80,6 +86,7 @@ class SimRig final : public Rig {
   void happen(double time_s, ShutterEvent& shutter);
   void end_exposures(double time_s);
   double smear_d(Side eye, double from_s, double to_s);
+  double seen(Side eye, double time_s);
 
   PerEye<SimLens> lens_;
   PerEye<SimShutter> shutter_;
@@ -88,6 +95,17 @@ class SimRig final : public Rig {
   std::multimap<double, Event> events_;
   std::vector<StartedExposure> running_;
   std::vector<DeliveredExposure> delivered_;
+
+  /// What a sensor may still look at.
+  struct Lit {
+    StartedExposure exposure;
+    std::optional<SimBrightness> brightness;  ///< once somebody looked
+  };
+  std::shared_ptr<SimLightSensor> sensor_;
+  int width_px_;
+  int height_px_;
+  PictureForm form_;
+  std::deque<Lit> lit_;
 };
 
 }  // namespace focalstage

@@ -33,9 +33,9 @@ std::string amount_text(const Amount& amount) {
 }  // namespace
 
 ExitStatus status_of(const Fault& fault) {
-  static constexpr std::array<std::string_view, 11> environment{
-      "rig.",     "file.unwritable", "show.disk-full", "show.unwritable", "show.busy",         "export.folder",
-      "program.", "display.",        "trials.busy",    "trials.stopped",  "trials.input-ended"};
+  static constexpr std::array<std::string_view, 13> environment{
+      "rig.",     "file.unwritable", "show.disk-full", "show.unwritable",    "show.busy", "export.folder", "program.",
+      "display.", "trials.busy",     "trials.stopped", "trials.input-ended", "measure.",  "light."};
   const bool outside = std::any_of(environment.begin(), environment.end(),
                                    [&](std::string_view code) { return fault.code.starts_with(code); });
   return outside ? ExitStatus::environment : ExitStatus::invalid;

@@ -62,6 +62,18 @@ class RigClient {
   /// Makes a device show itself; an empty serial is the only one of that driver.
   Status identify(const std::string& driver, const std::string& serial);
 
+  /// Lets the rig measure itself: `seen` is told what it does and how much of all is done. `frequency_hz` 0: 60;
+  /// `harmonics` 0: 4. It keeps what it found unless `dry_run`. "rig.no-light-sensor", "measure.*", "light.*"; a stop
+  /// request leaves it dark: "rig.cancelled".
+  struct SelfTestAsked {
+    double frequency_hz = 0.0;
+    int harmonics = 0;
+    bool dry_run = false;
+  };
+  Result<RigMeasurement> self_test(const SelfTestAsked& asked,
+                                   const std::function<void(const std::string& doing, double share)>& seen,
+                                   std::stop_token stop = {});
+
   /// Calls `seen` with the state every `interval` until it returns false, `stop` is requested or the rig goes away.
   /// `seen` must not wait.
   Status watch(std::chrono::milliseconds interval, const std::function<bool(const RigState&)>& seen,

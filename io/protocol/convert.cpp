@@ -173,6 +173,7 @@ v1::RigDescription message_from(const RigDescription& rig) {
   message.set_frequency_hz(rig.frequency_hz);
   message.set_lens_current_max_a(rig.lens_current_max_a);
   message.set_shutter_changes_per_s_max(rig.shutter_changes_per_s_max);
+  if (rig.measurement) *message.mutable_measurement() = message_from(*rig.measurement);
   return message;
 }
 
@@ -185,6 +186,7 @@ RigDescription description_from(const v1::RigDescription& message) {
   rig.frequency_hz = message.frequency_hz();
   rig.lens_current_max_a = message.lens_current_max_a();
   rig.shutter_changes_per_s_max = message.shutter_changes_per_s_max();
+  if (message.has_measurement()) rig.measurement = measurement_from(message.measurement());
   return rig;
 }
 

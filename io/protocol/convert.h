@@ -11,6 +11,9 @@ namespace focalstage {
 v1::RigDescription message_from(const RigDescription& rig);
 RigDescription description_from(const v1::RigDescription& message);
 
+v1::RigMeasurement message_from(const RigMeasurement& measurement);
+RigMeasurement measurement_from(const v1::RigMeasurement& message);
+
 v1::RigState message_from(const RigState& state);
 RigState state_from(const v1::RigState& message);
 

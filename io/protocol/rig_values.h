@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/base/result.h"
+#include "core/rig_measure/measurement.h"
 #include "core/scene/project.h"
 
 namespace focalstage {
@@ -18,6 +20,7 @@ struct RigDescription {
   double frequency_hz = 60.0;       ///< of the sweep whose harmonics the lens response lists
   double lens_current_max_a = 0.0;  ///< limits of the rig's own configuration
   double shutter_changes_per_s_max = 0.0;
+  std::optional<RigMeasurement> measurement = {};  ///< of the newest self-test, whose values are those above
 
   bool operator==(const RigDescription&) const = default;
 };

@@ -1,10 +1,14 @@
 #include "io/rig_config/check_config.h"
 
+#include <cmath>
 #include <utility>
 
 namespace focalstage {
 
 namespace {
+
+// Nearer than this, two known powers tell a lens's gain no better than one.
+constexpr double least_between_targets_d = 0.5;
 
 Fault fault(std::string where, std::string message, std::string remedy) {
   return {"rig.config", std::move(where), std::move(message), std::move(remedy)};
@@ -73,6 +77,26 @@ Status check_tracker(const TrackerConfig& tracker) {
   return {};
 }
 
+Status check_light_sensor(const LightSensorConfig& sensor) {
+  const std::string place = "/devices/light_sensor/targets";
+  for (std::size_t i = 0; i < sensor.targets.size(); ++i) {
+    const LightTargetConfig& target = sensor.targets[i];
+    const std::string where = place + "/" + std::to_string(i);
+    for (const Side eye : both_sides) {
+      const std::array<int, 4>& rectangle = target.rectangle_px[eye];
+      if (rectangle[2] > 0 && rectangle[3] > 0) continue;
+      return fault(where + (eye == Side::left ? "/left_px" : "/right_px"), "has no pixels",
+                   "give left, top, width and height, the last two above 0");
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      if (std::abs(sensor.targets[k].power_d - target.power_d) >= least_between_targets_d) continue;
+      return fault(where + "/power_d", "is that of " + place + "/" + std::to_string(k) + " again, or nearly",
+                   "put the lines at different distances: powers 0.5 D apart or more");
+    }
+  }
+  return {};
+}
+
 Status check_network(const NetworkConfig& network) {
   const int given = !network.certificate.empty() + !network.key.empty() + !network.client_ca.empty();
   if (given == 0 || given == 3) return {};
@@ -102,6 +126,9 @@ Status check_config(const RigConfig& config) {
   }
   if (config.devices.tracker) {
     if (Status tracker = check_tracker(*config.devices.tracker); !tracker) return tracker;
+  }
+  if (config.devices.light_sensor) {
+    if (Status sensor = check_light_sensor(*config.devices.light_sensor); !sensor) return sensor;
   }
   if (config.measured) {
     if (Status measured = check_measured(*config.measured); !measured) return measured;

@@ -5,6 +5,7 @@
 #include "io/json/checked_value.h"
 #include "io/project/validate.h"
 #include "io/rig_config/check_config.h"
+#include "io/rig_config/read_light_sensor.h"
 #include "io/rig_config/read_tracker.h"
 
 namespace focalstage {
@@ -28,6 +29,7 @@ DevicesConfig devices_from(const Value& value, const fs::path& folder) {
   read(value, "lens_drive", devices.lens_drive);
   read(value, "trigger_board", devices.trigger_board);
   if (const Value* tracker = value.find("tracker")) devices.tracker = tracker_from(*tracker, folder);
+  if (const Value* sensor = value.find("light_sensor")) devices.light_sensor = light_sensor_from(*sensor);
   return devices;
 }
 

@@ -10,6 +10,7 @@
 #include "core/base/result.h"
 #include "core/base/sides.h"
 #include "core/scene/project.h"
+#include "io/rig_config/light_config.h"
 #include "io/rig_config/tracker_config.h"
 
 namespace focalstage {
@@ -21,6 +22,7 @@ struct DevicesConfig {
   std::optional<DeviceConfig> lens_drive;
   std::optional<DeviceConfig> trigger_board;
   std::optional<TrackerConfig> tracker;
+  std::optional<LightSensorConfig> light_sensor;
 
   bool operator==(const DevicesConfig&) const = default;
 };

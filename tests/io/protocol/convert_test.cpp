@@ -33,6 +33,11 @@ RigDescription description() {
   rig.frequency_hz = 59.94;
   rig.lens_current_max_a = 0.27;
   rig.shutter_changes_per_s_max = 140.0;
+  RigMeasurement measured{50.0, 1'700'000'000, {0.21, 0.004}, {0.012, 0.001}, {}};
+  measured.eye.left = {
+      {0.21, 0.01}, {2.7, 0.05}, {-0.01, 0.02}, {{0, {41.0, 0.2}, {0.0, 0.0}}, {1, {39.5, 0.1}, {-12.25, 0.2}}}};
+  measured.eye.right = {{0.22, 0.02}, {2.6, 0.04}, {0.03, 0.01}, {{0, {40.0, 0.3}, {0.0, 0.0}}}};
+  rig.measurement = measured;
   return rig;
 }
 

@@ -23,7 +23,10 @@ constexpr const char* whole = R"({
                 "world_from_tracker": {"position_m": [1, 2, 3], "rotation_xyzw": [0, 0.6, 0, 0.8]},
                 "bodies": [{"name": "wand", "id": 3, "body_from_thing": {"position_m": [0, 0, 0.1]},
                             "markers": [{"marker": 7, "size_m": 0.05, "body_from_marker": {"rotation_xyzw": [1, 0, 0, 0]}}]},
-                           {"name": "table", "board": {"squares_x": 5, "squares_y": 7, "square_m": 0.04, "marker_m": 0.03}}]}
+                           {"name": "table", "board": {"squares_x": 5, "squares_y": 7, "square_m": 0.04, "marker_m": 0.03}}]},
+    "light_sensor": {"driver": "uno", "serial": "L1", "settings": {"left_input": 2},
+                     "targets": [{"power_d": -1.2, "left_px": [10, 20, 4, 300], "right_px": [610, 20, 4, 300]},
+                                 {"power_d": 0.9, "spread_d": 0.02, "left_px": [11, 20, 4, 300], "right_px": [611, 20, 4, 300]}]}
   },
   "measured": {
     "projector": {"model": "lightcrafter4500", "width_px": 912, "height_px": 1140, "frames_per_second": 4225, "bits": 1,
@@ -91,6 +94,11 @@ TEST_CASE("everything the file says arrives") {
   REQUIRE(tracker.bodies.size() == 2);
   CHECK(tracker.bodies[0] == BodyConfig{"wand", 3, {{7, 0.05, {{}, {0, 1, 0, 0}}}}, {}, {{0, 0, 0.1}, {1, 0, 0, 0}}});
   CHECK(tracker.bodies[1] == BodyConfig{"table", {}, {}, BodyBoardConfig{5, 7, 0.04, 0.03}, {}});
+  REQUIRE(config.devices.light_sensor);
+  CHECK(config.devices.light_sensor->device == DeviceConfig{"uno", "L1", "", {{"left_input", 2.0}}});
+  CHECK(config.devices.light_sensor->targets ==
+        std::vector<LightTargetConfig>{{-1.2, 0.01, {{10, 20, 4, 300}, {610, 20, 4, 300}}},
+                                       {0.9, 0.02, {{11, 20, 4, 300}, {611, 20, 4, 300}}}});
   REQUIRE(config.measured);
   CHECK(config.measured->projector.model == "lightcrafter4500");
   CHECK(config.measured->projector.width_px == 912);
@@ -164,6 +172,8 @@ TEST_CASE("what a schema cannot say is refused too") {
   refusal(R"("rotation_xyzw": [1, 0, 0, 0])", R"("rotation_xyzw": [1, 1, 0, 0])",
           "/devices/tracker/bodies/0/markers/0/body_from_marker/rotation_xyzw");
   refusal(R"("name": "table")", R"("name": "wand")", "/devices/tracker/bodies/1/name");
+  refusal(R"("power_d": 0.9)", R"("power_d": -1.1)", "/devices/light_sensor/targets/1/power_d");
+  refusal(R"([611, 20, 4, 300])", R"([611, 20, 0, 300])", "/devices/light_sensor/targets/1/right_px");
   refusal(R"("key": "/etc/rig.key",)", "", "/network");
   refusal(R"("name": "desk", )", "", "/clients/0");
   CHECK(refused(R"({"focalstage_rig": 1, "rig": {"kind": "devices"}})").where == "rig.json: /devices/projector");

@@ -1,5 +1,6 @@
 #include "tests/devices/uno/emulator/chip.h"
 
+#include <simavr/avr_adc.h>
 #include <simavr/avr_ioport.h>
 #include <simavr/avr_timer.h>
 #include <simavr/avr_uart.h>
@@ -23,6 +24,8 @@ namespace {
 constexpr Cycle byte_cycles = 10 * 136;  // start, 8 data, stop; UBRR 16 with U2X
 constexpr Cycle edge_cycles = 1600;      // how long a sync edge stays high
 constexpr double watchdog_hz = 128e3;
+constexpr Cycle conversion_cycles = 416;  // 13 clocks of 32
+constexpr double held_cycles = 48.0;      // 1.5 of them after it began
 
 void sleep_in_no_time(avr_t*, avr_cycle_count_t) {}
 
@@ -50,6 +53,7 @@ Chip::Chip(const std::string& firmware_elf) {
   avr_init(avr_);
   avr_load_firmware(avr_, &firmware);
   avr_->frequency = 16000000;
+  avr_->vcc = avr_->avcc = 5000;
   avr_->sleep = sleep_in_no_time;
   std::uint32_t flags = 0;
   avr_ioctl(avr_, AVR_IOCTL_UART_GET_FLAGS('0'), &flags);
@@ -69,6 +73,7 @@ void Chip::listen() {
     avr_irq_register_notify(avr_io_getirq(avr_, of, pin), tell, this);
   };
   on(AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_OUTPUT, said);
+  on(AVR_IOCTL_ADC_GETIRQ, ADC_IRQ_OUT_TRIGGER, converts);
   on(AVR_IOCTL_IOPORT_GETIRQ('B'), 1, trigger_changed);
   on(AVR_IOCTL_IOPORT_GETIRQ('B'), 5, lamp_changed);
   on(AVR_IOCTL_IOPORT_GETIRQ('D'), 4, left_changed);
@@ -205,6 +210,31 @@ void Chip::receive(std::uint8_t byte) {
   const unsigned unread = (0U + uart_->input.write - uart_->input.read) % uart_fifo_fifo_size;
   if (unread > 2) ++overruns;
   avr_raise_irq(avr_io_getirq(avr_, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_INPUT), byte);
+}
+
+// simavr reads the voltage when the program reads the result, and by then the next conversion has begun: so it is given
+// shortly before each end. Its conversions take a cycle too long; the world is looked at as a real chip would.
+void Chip::converts(avr_irq_t*, std::uint32_t value, void* self) {
+  Chip& chip = *static_cast<Chip*>(self);
+  const Cycle at = chip.avr_->cycle;
+  const bool follows = at - chip.newest_conversion_ < conversion_cycles + 8;
+  chip.conversions_ = follows ? chip.conversions_ + 1 : 0;
+  if (!follows) chip.first_conversion_ = at;
+  chip.newest_conversion_ = at;
+  chip.mux_ = value;
+  avr_cycle_timer_register(chip.avr_, conversion_cycles - 8, converted, &chip);
+}
+
+std::uint64_t Chip::converted(avr_t* avr, std::uint64_t, void* self) {
+  Chip& chip = *static_cast<Chip*>(self);
+  avr_adc_mux_t mux;
+  static_assert(sizeof mux == sizeof chip.mux_);
+  std::memcpy(&mux, &chip.mux_, sizeof mux);
+  const double held = static_cast<double>(chip.first_conversion_ + chip.conversions_ * conversion_cycles) + held_cycles;
+  const double share = chip.analogue_ ? chip.analogue_(static_cast<int>(mux.src), held) : 0.0;
+  const auto millivolts = static_cast<std::uint32_t>(std::lround(5000.0 * std::clamp(share, 0.0, 1.0)));
+  avr_raise_irq(avr_io_getirq(avr, AVR_IOCTL_ADC_GETIRQ, ADC_IRQ_ADC0 + static_cast<int>(mux.src)), millivolts);
+  return 0;
 }
 
 std::uint64_t Chip::next_byte(avr_t*, std::uint64_t when, void* self) {

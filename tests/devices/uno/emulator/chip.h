@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 struct avr_t;
@@ -48,6 +50,10 @@ class Chip {
   /// One edge of the lens drive's at D2, at that cycle, as `edge_at`.
   void lens_edge_at(Cycle at);
 
+  /// What stands at analogue input 0 to 5, as a share of 5 V, at a cycle: asked for each conversion, of the cycle in
+  /// which a real converter holds its input.
+  void set_analogue(std::function<double(int input, double cycle)> share) { analogue_ = std::move(share); }
+
   /// Queues bytes as they are; they go in back to back, as fast as the board's USB bridge says them (10 bits of 136
   /// cycles each).
   void send_raw(std::string_view bytes);
@@ -83,6 +89,8 @@ class Chip {
   static std::uint64_t single_edge(avr_t* avr, std::uint64_t when, void* self);
   static std::uint64_t lens_edge(avr_t* avr, std::uint64_t when, void* self);
   static std::uint64_t end_lens_edge(avr_t* avr, std::uint64_t when, void* self);
+  static void converts(avr_irq_t* irq, std::uint32_t value, void* self);
+  static std::uint64_t converted(avr_t* avr, std::uint64_t when, void* self);
   static std::uint64_t next_byte(avr_t* avr, std::uint64_t when, void* self);
   static void said(avr_irq_t* irq, std::uint32_t value, void* self);
   static void trigger_changed(avr_irq_t* irq, std::uint32_t value, void* self);
@@ -113,6 +121,11 @@ class Chip {
   std::optional<std::uint32_t> hung_at_;
   std::array<std::uint8_t, 2> hang_{0xFF, 0xCF};
   std::string bytes_;
+  std::function<double(int, double)> analogue_;
+  Cycle first_conversion_ = 0;  ///< of those that follow each other without a pause
+  Cycle newest_conversion_ = 0;
+  unsigned conversions_ = 0;
+  std::uint32_t mux_ = 0;
 };
 
 }  // namespace focalstage::uno_emulator
