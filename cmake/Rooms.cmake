@@ -86,7 +86,7 @@ focalstage_room(editor/preview  USES editor/tools core/check core/compile core/r
                                      core/stage)
 focalstage_room(editor/rig      USES io/protocol io/project io/assets io/files)
 focalstage_room(editor/session  USES editor/tools editor/document editor/preview editor/rig editor/pipeline io/models io/export io/image
-                                     core/schedule)
+                                     core/sensitivity core/schedule)
 
 # the window: GLFW, Dear ImGui and VTK live here and nowhere else
 focalstage_room(editor/window/base   USES editor/session           LIBS imgui::imgui vtk::vtk PRIVATE_LIBS epoxy::epoxy)

@@ -87,7 +87,8 @@ void add_effect(const RoomOfLight& room, const std::vector<Shown>& shown, ErrorE
   for (const Shown& one : shown) {
     const StagedObject& object = room.stage.objects[one.sample.object];
     const auto wanted = meant(room, one.eye, object.depth, place_m(room.stage, one.sample));
-    const auto seen = arrived(room, one.eye, one.exposed.pixel, one.exposed.power_d + effect.error.power_d);
+    const auto seen =
+        arrived(room, one.eye, one.exposed.pixel, one.exposed.power_d + effect.error.power_d * effect.error.amount);
     if (!wanted || !seen) continue;
     const double shift_arcmin = angle_arcmin(seen->look, wanted->look);
     if (shift_arcmin > effect.shift_arcmin || effect.object.empty()) effect.object = object.name;
@@ -124,8 +125,8 @@ Result<std::vector<ErrorEffect>> sensitivity(const Project& project, const Asset
     const std::vector<Shown> shown = shown_in(*room, project.slices.powers_d);
     for (ErrorEffect& effect : effects) {
       Project real = project;
-      effect.error.make(real);
-      const auto real_room = RoomOfLight::of(real, assets, time_s + effect.error.late_s);
+      effect.error.make(real, effect.error.amount);
+      const auto real_room = RoomOfLight::of(real, assets, time_s + effect.error.late_s * effect.error.amount);
       if (!real_room) return real_room.fault();
       add_effect(*real_room, shown, effect);
     }

@@ -28,6 +28,18 @@ int image_at(const Schedule& schedule, Side side, double time_s) {
   return nearest;
 }
 
+/// The same light in the rig as it is.
+RetinaInput seen_in(const SeenRig* rig, RetinaInput input) {
+  if (rig == nullptr) return input;
+  input.stage = rig->stage.get();
+  input.projector.world_from_projector = rig->world_from_projector;
+  input.lens_to_pupil_m = rig->lens_to_pupil_m;
+  for (RetinaExposure& exposure : input.exposures) {
+    for (PowerShare& share : exposure.powers) share.power_d += rig->power_d;
+  }
+  return input;
+}
+
 }  // namespace
 
 RetinaInput retina_input(const CompiledSlices& compiled, const Schedule& schedule, Side side, const EyeWish& wish) {
@@ -36,8 +48,8 @@ RetinaInput retina_input(const CompiledSlices& compiled, const Schedule& schedul
     const int only = image_at(schedule, side, *wish.sweep_time_s);
     std::erase_if(shown.slots, [&](const Slot& slot) { return slot.image != only || slot.eye != side; });
   }
-  return seen_frame(*compiled.stage, compiled.settings, compiled.images, shown, worn_glasses(compiled.project->glasses),
-                    side);
+  return seen_in(wish.rig.get(), seen_frame(*compiled.stage, compiled.settings, compiled.images, shown,
+                                            worn_glasses(compiled.project->glasses), side));
 }
 
 RetinaView retina_view(const EyeWish& wish, Side side, std::size_t panels) {
@@ -76,7 +88,9 @@ const Schedule& EyePainter::schedule_of(const CompiledSlices& compiled) {
 
 RetinaInput EyePainter::input_for(const CompiledSlices& compiled, const EyeWish& wish, const EyePanel& panel,
                                   Side side) {
-  if (panel.projection == EyeProjection::conventional) return conventional_input(compiled, side);
+  if (panel.projection == EyeProjection::conventional) {
+    return seen_in(wish.rig.get(), conventional_input(compiled, side));
+  }
   return retina_input(compiled, schedule_of(compiled), side, wish);
 }
 
@@ -178,6 +192,7 @@ Result<EyePicture> EyePainter::paint(const CompiledSlices& compiled, const EyeWi
   picture.width_px = wish.width_px;
   picture.height_px = wish.height_px;
   picture.focus_d = wish.focus_d;
+  picture.off = wish.rig != nullptr;
   picture.panels = panels_of(wish);
   picture.rgb.assign(static_cast<std::size_t>(wish.width_px) * static_cast<std::size_t>(wish.height_px) * 3, 0);
   for (std::size_t panel = 0; panel < picture.panels.size(); ++panel) {

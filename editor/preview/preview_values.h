@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/base/result.h"
+#include "core/base/rigid.h"
 #include "core/base/sides.h"
 #include "core/compile/frame.h"
 #include "core/scene/finding.h"
@@ -47,6 +48,14 @@ enum class EyeLook { left, right, red_cyan, side_by_side };
 /// The sweep, one slice at 0 D as a projection without it would show, or both beside each other.
 enum class EyeProjection { multifocal, conventional, both };
 
+/// The rig as it may really be, where it is not as the project says: images are made for the one, seen in the other.
+struct SeenRig {
+  std::shared_ptr<const Stage> stage;
+  Rigid world_from_projector;
+  double lens_to_pupil_m = 0.015;
+  double power_d = 0.0;  ///< of the lens, beside what it is told
+};
+
 /// How to look: what of the view state the eye's picture depends on.
 struct EyeWish {
   EyeLook look = EyeLook::left;
@@ -59,6 +68,7 @@ struct EyeWish {
   int width_px = 400;     ///< of all panels
   int height_px = 300;
   std::optional<double> sweep_time_s;  ///< only the exposure at that moment
+  std::shared_ptr<const SeenRig> rig;  ///< null: as the project says
   bool operator==(const EyeWish&) const = default;
 };
 
@@ -85,6 +95,7 @@ struct EyePicture {
   int width_px = 0;
   int height_px = 0;
   double focus_d = 0.0;
+  bool off = false;  ///< seen in a rig that is not as the project says
   std::vector<EyePanel> panels;
   std::vector<NamedConflict> conflicts;  ///< of what is lit, where asked for
   std::vector<std::uint8_t> rgb;         ///< rows from the top, sRGB

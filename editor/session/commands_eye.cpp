@@ -85,6 +85,25 @@ Status head(Session& session, const Value& args) {
   return {};
 }
 
+/// args: what, amount in its unit (none: as the project says); without `what`: all as the project says
+Status off_rig(Session& session, const Value& args) {
+  constexpr double most = 10.0;  // times what a study of sensitivity takes
+  ErrorAmounts& amounts = session.view().rig_errors;
+  const std::string what = text_or(args, "what", "");
+  if (what.empty()) {
+    amounts.clear();
+    return {};
+  }
+  for (const RigError& error : rig_errors(session.project())) {
+    if (error.what != what) continue;
+    const double amount = std::clamp(number_or(args, "amount", 0.0), -most * error.amount, most * error.amount);
+    if (amount == 0.0) amounts.erase(what);
+    if (amount != 0.0) amounts[what] = amount;
+    return {};
+  }
+  return Fault{"command.argument", "what", "nothing of this project is called " + what, "see check --sensitivity"};
+}
+
 }  // namespace
 
 void add_eye_commands(CommandList& list) {
@@ -102,6 +121,7 @@ void add_eye_commands(CommandList& list) {
   add({"eye.which", "Left, right, red-cyan or side by side", "E", "Which eye the eye view shows", "eye", true,
        needs_project, which});
   add({"eye.head", "Move the head", "", "", "", false, needs_project, head});
+  add({"eye.off-rig", "See a rig that is off", "", "", "", false, needs_project, off_rig});
 }
 
 }  // namespace focalstage

@@ -46,6 +46,9 @@ Value value_of(const ViewState& view) {
   value.set("conventional", view.projection == EyeProjection::conventional);
   value.set("beside", view.projection == EyeProjection::both);
   value.set("conflict", view.conflict);
+  Value off = Value::Object{};
+  for (const auto& [what, amount] : view.rig_errors) off.set(what, amount);
+  value.set("rig_errors", off);
   value.set("image", view.image);
   value.set("azimuth_deg", view.camera.azimuth_deg);
   value.set("elevation_deg", view.camera.elevation_deg);

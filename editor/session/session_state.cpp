@@ -123,6 +123,22 @@ void Session::State::restage() {
   staged_frame = view.frame;
 }
 
+std::shared_ptr<const SeenRig> Session::State::seen_rig() {
+  if (view.rig_errors.empty()) return nullptr;
+  if (off_rig && off_rig_stage == stage && off_rig_errors == view.rig_errors) return off_rig;
+  const RealRig real = real_rig(project(), view.rig_errors);
+  const Assets& assets = document->shelf().assets();
+  const double time_s = frame_time_s() + real.late_s;
+  auto stood = focalstage::stage(without_missing(real.project, assets, time_s), assets, time_s);
+  if (!stood) return nullptr;  // restaging says why
+  off_rig_stage = stage;
+  off_rig_errors = view.rig_errors;
+  off_rig = std::make_shared<const SeenRig>(SeenRig{std::make_shared<const Stage>(std::move(*stood)),
+                                                    real.project.projectors.front().pose,
+                                                    real.project.glasses.lens_to_pupil_mm / 1000.0, real.power_d});
+  return off_rig;
+}
+
 void Session::State::wish_preview() {
   if (!document || !stage || project().projectors.empty() || project().slices.powers_d.empty()) return;
   PreviewWish wish;
@@ -135,6 +151,7 @@ void Session::State::wish_preview() {
   wish.uncompensated = view.compensation != Compensation::on;
   wish.eye = eye_wish(view, eye_size_px);
   wish.eye.sweep_time_s = view.sweep_time_s;
+  wish.eye.rig = seen_rig();
   wish.focus_at = focus_question;
   preview.want(std::move(wish));
   rig.show({revision(), view.frame, document->history().now(), document->folder()});
@@ -151,6 +168,7 @@ void Session::State::take(Document opened) {
   view.playing = false;
   view.filled = fresh.filled;
   view.sweep_time_s.reset();
+  view.rig_errors.clear();
   view.image = 0;
   staged_frame = -1;
   stage = nullptr;

@@ -62,6 +62,9 @@ struct Session::State {
   std::shared_ptr<const Stage> stage;
   std::uint64_t staged_revision = 0;
   int staged_frame = -1;
+  std::shared_ptr<const SeenRig> off_rig;  ///< made of these two
+  std::shared_ptr<const Stage> off_rig_stage;
+  ErrorAmounts off_rig_errors;
   std::shared_ptr<const ProjectorModels> models;  ///< known to the open project
   std::vector<Finding> asset_findings;
   bool reading = false;               ///< files of the project, behind the window
@@ -119,6 +122,8 @@ struct Session::State {
   void restage();
   void fit_views();
   void wish_preview();
+  /// The rig of the view's errors; null without any, and where it cannot stand.
+  std::shared_ptr<const SeenRig> seen_rig();
   /// The picture of the next sample that has none yet.
   void draw_next_sample();
 };

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 
 #include "core/base/sides.h"
+#include "core/sensitivity/rig_errors.h"
 #include "editor/preview/preview_values.h"
 #include "editor/session/thing.h"
 #include "editor/tools/handle_frame.h"
@@ -59,6 +60,7 @@ struct ViewState {
   bool conflict = false;          ///< tint what vergence and accommodation disagree about, in eye and room
   glm::dvec3 head_offset_m{0.0};  ///< in the viewer's axes, at most 5 cm
   double fov_deg = 40.0;
+  ErrorAmounts rig_errors;  ///< by how much the rig that the eye's view shows is off
 
   std::optional<double> sweep_time_s;  ///< the moment of the sweep that all views follow; none: the whole period
   int frame = 0;
@@ -72,10 +74,19 @@ struct ViewState {
   bool operator==(const ViewState&) const = default;
 };
 
-/// What the eye's view asks for, as a picture of `size_px`; over the whole period.
+/// What the eye's view asks for, as a picture of `size_px`; over the whole period, in the rig that the project says.
 inline EyeWish eye_wish(const ViewState& view, const glm::ivec2& size_px) {
-  return {view.eye,           view.focus_d, view.pupil_mm, view.projection, view.conflict,
-          view.head_offset_m, view.fov_deg, size_px.x,     size_px.y,       {}};
+  return {view.eye,
+          view.focus_d,
+          view.pupil_mm,
+          view.projection,
+          view.conflict,
+          view.head_offset_m,
+          view.fov_deg,
+          size_px.x,
+          size_px.y,
+          {},
+          {}};
 }
 
 }  // namespace focalstage

@@ -9,6 +9,7 @@
 #include "editor/window/base/chips.h"
 #include "editor/window/base/im.h"
 #include "editor/window/base/widgets.h"
+#include "editor/window/views/off_rig_popup.h"
 #include "editor/window/views/pane_text.h"
 
 namespace focalstage {
@@ -134,6 +135,12 @@ void EyePane::draw_chips(Session& session, const PaneRect& rect) {
   which.icon = "eye";
   which.tip = {"Left eye, right eye, both red-cyan, or side by side", "E", {}};
   if (chips.button("which", look_words(view.eye), which)) (void)session.run("eye.which");
+  ButtonStyle off;
+  off.icon = "warning";
+  off.down = !view.rig_errors.empty();
+  off.tip = {"What is seen where the rig is not quite as the project says: lens, poses, eyes, delay", {}, {}};
+  if (chips.button("off-rig", off.down ? "Off" : "What if", off)) ImGui::OpenPopup(off_rig_popup);
+  draw_off_rig_popup(session);
   const auto picture = session.eye_picture();
   if (picture->divisor > 1) chips.label("", picture->divisor == 2 ? "half size" : "quarter size");
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <doctest/doctest.h>
 
@@ -94,6 +95,27 @@ TEST_CASE("late light counts where something moves, by the way it goes meanwhile
   }
   // 0.1 m/s for a millisecond at 0.45 m.
   CHECK(effect_of(project, "light late").shift_arcmin * arcmin == doctest::Approx(1e-4 / 0.45).epsilon(0.06));
+}
+
+TEST_CASE("a rig in which several things are off has each where it really is; what is not there is as it is said") {
+  Project project;
+  project.viewer.interpupillary_mm = 63.0;
+  project.projectors.emplace_back();
+  project.projectors[0].name = "main";
+  project.projectors[0].pose = {{1.0, 2.0, 3.0}, glm::angleAxis(std::numbers::pi / 2.0, glm::dvec3(0.0, 1.0, 0.0))};
+  const RealRig real = real_rig(project, {{"main along z", -4.0},
+                                          {"viewer turned about y", 30.0},
+                                          {"interpupillary distance", 2.5},
+                                          {"lens power", 0.25},
+                                          {"a screen along x", 9.0}});
+  const glm::dvec3 at_m = real.project.projectors[0].pose.position_m;  // its own z points along the room's x
+  CHECK(at_m.x == doctest::Approx(1.0 - 0.004));
+  CHECK(at_m.z == doctest::Approx(3.0));
+  CHECK(glm::degrees(glm::angle(real.project.viewer.placement.pose.rotation)) == doctest::Approx(30.0));
+  CHECK(real.project.viewer.interpupillary_mm == 65.5);
+  CHECK(real.power_d == doctest::Approx(0.25));
+  CHECK(real.late_s == 0.0);
+  CHECK(real_rig(project, {}).project == project);
 }
 
 TEST_CASE("what cannot be looked at is said; what is hidden, or off the picture, is not looked at") {

@@ -162,6 +162,40 @@ TEST_CASE("what is edited is compiled, checked and seen") {
   CHECK(codes(session).contains("depth.out-of-range"));
 }
 
+TEST_CASE("a rig that is off is seen, not compiled: a viewer who stands aside sees what a head moved aside does") {
+  const Home home;
+  Session session([] {});
+  open_sample(session, "first-light");
+  REQUIRE(wait_compiled(session));
+  const auto picture = [&](bool off) {
+    const auto before = session.eye_picture();
+    REQUIRE(wait(session, [&] {
+      const auto now = session.eye_picture();
+      return now && now != before && now->revision == session.revision() && now->divisor == 1 && now->off == off;
+    }));
+    return session.eye_picture()->rgb;
+  };
+  REQUIRE(wait(session, [&] { return session.eye_picture() && session.eye_picture()->divisor == 1; }));
+  const auto said = session.eye_picture()->rgb;
+  const auto slices = session.slices()->images.codes;
+  REQUIRE(session.run("eye.off-rig", args({{"what", "viewer along x"}, {"amount", 6.0}})).ok());
+  const auto aside = picture(true);
+  CHECK(aside != said);
+  CHECK(session.slices()->images.codes == slices);
+  REQUIRE(session.run("eye.off-rig").ok());
+  CHECK(picture(false) == said);
+  REQUIRE(session.run("eye.head", args({{"x_m", 0.006}})).ok());
+  const auto head_aside = picture(false);
+  REQUIRE(head_aside.size() == aside.size());
+  int most = 0;
+  for (std::size_t i = 0; i < aside.size(); ++i) most = std::max(most, std::abs(int{head_aside[i]} - int{aside[i]}));
+  CHECK(most <= 1);
+  REQUIRE(session.run("eye.head").ok());
+  REQUIRE(session.run("eye.off-rig", args({{"what", "lens power"}, {"amount", 0.3}})).ok());
+  CHECK(picture(true) != said);
+  CHECK_FALSE(session.run("eye.off-rig", args({{"what", "weather"}, {"amount", 1.0}})).ok());
+}
+
 TEST_CASE("a drag is one step, and shows slices meanwhile") {
   const Home home;
   Session session([] {});

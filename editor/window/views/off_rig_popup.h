@@ -1,0 +1,12 @@
+#pragma once
+
+namespace focalstage {
+
+class Session;
+
+inline constexpr const char* off_rig_popup = "off-rig";
+
+/// By how much each part of the rig that the eye's view shows is off, once opened: a slider for each.
+void draw_off_rig_popup(Session& session);
+
+}  // namespace focalstage
