@@ -287,6 +287,16 @@ MeasuredHarmonic harmonic_of(const Solution& solution, int n, double period_s, d
           {std::atan2(b, a) * degrees, std::hypot(turn_deg, delay_deg)}};
 }
 
+/// A delay turns each harmonic further than the one before: by whole turns nearest to that, so that what lies between
+/// two harmonics may be read off a straight line.
+void unwind(std::vector<MeasuredHarmonic>& lens) {
+  for (std::size_t n = 2; n < lens.size(); ++n) {
+    const double expected_deg = 2.0 * lens[n - 1].phase_deg.value - lens[n - 2].phase_deg.value;
+    double& phase_deg = lens[n].phase_deg.value;
+    phase_deg += 360.0 * std::round((expected_deg - phase_deg) / 360.0);
+  }
+}
+
 }  // namespace
 
 Result<LensFit> fit_lens(const std::vector<LensLook>& looks, const LensFitTask& task, const std::string& where) {
@@ -325,6 +335,7 @@ Result<LensFit> fit_lens(const std::vector<LensLook>& looks, const LensFitTask& 
   for (int n = 0; n <= harmonics; ++n) {
     fit.lens.push_back(harmonic_of(*solution, n, task.period_s, task.delay_spread_s));
   }
+  unwind(fit.lens);
   fit.residual_d = solution->residual_d;
   fit.crossings = solution->used;
   return fit;

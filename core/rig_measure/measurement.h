@@ -15,7 +15,8 @@ struct Estimate {
   bool operator==(const Estimate&) const = default;
 };
 
-/// One harmonic of a lens, as core/scene/project.h has it; a lag is a negative phase.
+/// One harmonic of a lens, as core/scene/project.h has it; a lag is a negative phase, of more than a half
+/// turn where the lens is that late.
 struct MeasuredHarmonic {
   int harmonic = 0;
   Estimate gain_d_per_a;

@@ -92,7 +92,7 @@ ISR(ADC_vect) {
 void fs_light_status(struct fs_light* light) {
   ATOMIC_BLOCK(ATOMIC_RESTORESTATE) {
     light->state = state;
-    light->after = (uint16_t)(earliest - HELD_BEFORE_TICKS - edge);
+    light->after = count ? (uint16_t)(earliest - HELD_BEFORE_TICKS - edge) : 0u;
     light->samples = count;
   }
 }

@@ -75,9 +75,11 @@ Result<std::optional<LightRecord>> SimLightSensor::take() {
 
 void SimLightSensor::sync_edge(double time_s) {
   const std::lock_guard lock(mutex_);
-  if (edge_s_) period_s_ = time_s - *edge_s_;
+  const double newest_s = edge_s_ ? time_s - *edge_s_ : 0.0;
+  steady_ = newest_s > 0.0 && std::abs(newest_s - period_s_) < 0.02 * newest_s;
+  period_s_ = newest_s;
   edge_s_ = time_s;
-  if (armed_ && !armed_->edge_s && armed_->request.edges_to_skip-- <= 0) armed_->edge_s = time_s;
+  if (armed_ && steady_ && !armed_->edge_s && armed_->request.edges_to_skip-- <= 0) armed_->edge_s = time_s;
 }
 
 void SimLightSensor::look(double time_s, const SimSeen& seen) {

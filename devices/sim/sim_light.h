@@ -80,6 +80,7 @@ class SimLightSensor final : public LightSensor {
   bool plugged_ = true;
   std::optional<double> edge_s_;
   double period_s_ = 0.0;
+  bool steady_ = false;  ///< the last two periods were alike
   std::optional<Armed> armed_;
   std::optional<LightRecord> done_;
   std::mt19937 random_{7};

@@ -148,6 +148,13 @@ TEST_CASE("24 harmonics are told apart") {
   REQUIRE(fit);
   REQUIRE(fit->lens.size() == 25);
   CHECK(worst(pulls(*fit, bench.lens)) < 4.5);
+  // Whole turns are not lost on the way: the last is late by more than half of one.
+  for (std::size_t n = 1; n < fit->lens.size(); ++n) {
+    const double omega = 2.0 * std::numbers::pi * static_cast<double>(n) / period_s;
+    const double lag_deg =
+        (std::atan(omega * bench.lens.lag_s) + omega * bench.lens.delay_s) * 180.0 / std::numbers::pi;
+    CHECK(std::abs(fit->lens[n].phase_deg.value + lag_deg) < 20.0);
+  }
   CHECK(fit->lens[24].gain_d_per_a.spread < 0.2 * std::abs(bench.lens.factor(24)));
 }
 

@@ -72,7 +72,7 @@ TEST_CASE("a record begins about when it was asked to, and says when it really d
       double worst_ticks = 0.0;
       for (std::size_t i = 0; i < codes.size(); ++i) {
         const double told = found.after + 52.0 * static_cast<double>(i);
-        const double held = (codes[i] + 0.5) / 1024.0 * period / 8.0;
+        const double held = (codes[i] + 0.5) / 1023.0 * period / 8.0;
         worst_ticks = std::max(worst_ticks, std::abs(held - told));
       }
       // A code is 33 ticks wide; the stamp is good to two.
@@ -92,7 +92,7 @@ TEST_CASE("the stamp of the first sample is good to two ticks") {
     REQUIRE(found.state == 2);
     const std::vector<int> codes = data(ramp.board, 240);
     for (std::size_t i = 0; i < codes.size(); ++i) {
-      sum += (codes[i] + 0.5) / 1024.0 * period_60_hz / 8.0 - found.after - 52.0 * static_cast<double>(i);
+      sum += (codes[i] + 0.5) / 1023.0 * period_60_hz / 8.0 - found.after - 52.0 * static_cast<double>(i);
       ++count;
     }
   }

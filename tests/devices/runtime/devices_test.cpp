@@ -101,8 +101,9 @@ TEST_CASE("a rig's state names its parts") {
   const Stand stand;
   const auto state = stand.client().state();
   REQUIRE(state);
-  REQUIRE(state->parts.size() == 1);
+  REQUIRE(state->parts.size() == 2);
   CHECK(state->parts[0] == PartReport{{"sim", "simulated rig", "", "in this program"}, "running", ""});
+  CHECK(state->parts[1] == PartReport{{"sim", "simulated light sensor", "", "in this program"}, "ready", ""});
 }
 
 }  // namespace

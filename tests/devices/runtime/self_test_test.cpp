@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <thread>
 
 #include <doctest/doctest.h>
@@ -13,6 +14,7 @@
 #include "io/protocol/adopt.h"
 #include "io/protocol/client.h"
 #include "tests/devices/runtime/sample_project.h"
+#include "tests/support/forwarding_rig.h"
 
 // A rig that measures itself, over the wire, and is not what it thinks it is.
 
@@ -57,6 +59,53 @@ struct Stand {
 
   RigClient client() const { return std::move(*RigClient::connect(runtime->address(), milliseconds(3000))); }
   SimLightSensor& sensor() const { return dynamic_cast<SimLightSensor&>(*options.rig.rig.light_sensor); }
+};
+
+/// What a rig of devices asks of whoever plays on it, and the simulated one does not (devices/firmware/README.md): how
+/// triggers lie in their period, and shutters that are never open together.
+class StrictRig final : public support::ForwardingRig {
+ public:
+  StrictRig(std::unique_ptr<Rig> inner, std::shared_ptr<std::set<std::string>> broken)
+      : ForwardingRig(std::move(inner)), broken_(std::move(broken)) {}
+
+  void sync_edge(double time_s) override {
+    edge_s_ = time_s;
+    triggers_ = 0;
+    ForwardingRig::sync_edge(time_s);
+  }
+  void trigger(double time_s) override {
+    const double at_s = time_s - edge_s_;
+    if (at_s < 50e-6) broken_->insert("a trigger too soon after the edge");
+    if (at_s > 1.0 / 60.0 - 150e-6) broken_->insert("a trigger too near the next edge");
+    if (triggers_ > 0 && time_s - trigger_s_ < 150e-6) broken_->insert("triggers too close");
+    if (++triggers_ > 32) broken_->insert("more triggers than a board takes");
+    trigger_s_ = time_s;
+    ForwardingRig::trigger(time_s);
+  }
+  void shutter(Side eye, ShutterLevel level, double time_s) override {
+    if (time_s < edge_s_ || time_s > edge_s_ + 1.9 / 60.0) broken_->insert("a shutter out of its period");
+    if (level == ShutterLevel::open) {
+      opened_s_[eye] = time_s;
+      closed_s_[eye] = 1e300;
+      const Side other = eye == Side::left ? Side::right : Side::left;
+      if (time_s < closed_s_[other] && opened_s_[other] < time_s) broken_->insert("both shutters open");
+    } else {
+      closed_s_[eye] = time_s;
+    }
+    ForwardingRig::shutter(eye, level, time_s);
+  }
+  void dark(double time_s) override {
+    closed_s_ = {-1e300, -1e300};
+    ForwardingRig::dark(time_s);
+  }
+
+ private:
+  std::shared_ptr<std::set<std::string>> broken_;
+  double edge_s_ = 0.0;
+  double trigger_s_ = 0.0;
+  int triggers_ = 0;
+  PerEye<double> opened_s_{-1e300, -1e300};
+  PerEye<double> closed_s_{-1e300, -1e300};
 };
 
 void check_near(const Estimate& measured, double wanted, double at_most) {
@@ -159,6 +208,22 @@ TEST_CASE("a dry run tells and keeps nothing; fewer harmonics are quicker") {
   REQUIRE(measured);
   CHECK(measured->eye.left.lens.size() == 2);
   CHECK(*client.describe() == *before);
+}
+
+TEST_CASE("all that is played meanwhile could be played by devices") {
+  Stand stand;
+  const auto broken = std::make_shared<std::set<std::string>>();
+  stand.options.rig.rig.make = [inner = stand.options.rig.rig.make, broken] {
+    return std::make_unique<StrictRig>(inner(), broken);
+  };
+  stand.start();
+  RigClient::SelfTestAsked asked;
+  asked.harmonics = 2;
+  CHECK(stand.client().self_test(asked, {}));
+  stand.runtime.reset();
+  std::string told;
+  for (const std::string& what : *broken) told += what + "; ";
+  CHECK(told == "");
 }
 
 TEST_CASE("what keeps a rig from measuring itself is said") {

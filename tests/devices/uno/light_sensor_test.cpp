@@ -1,8 +1,7 @@
 #include "devices/uno/light_sensor.h"
 
-#include <atomic>
+#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <doctest/doctest.h>
 

@@ -227,9 +227,8 @@ void Chip::converts(avr_irq_t*, std::uint32_t value, void* self) {
 
 std::uint64_t Chip::converted(avr_t* avr, std::uint64_t, void* self) {
   Chip& chip = *static_cast<Chip*>(self);
-  avr_adc_mux_t mux;
-  static_assert(sizeof mux == sizeof chip.mux_);
-  std::memcpy(&mux, &chip.mux_, sizeof mux);
+  avr_adc_mux_t mux{};
+  std::memcpy(&mux, &chip.mux_, sizeof chip.mux_);
   const double held = static_cast<double>(chip.first_conversion_ + chip.conversions_ * conversion_cycles) + held_cycles;
   const double share = chip.analogue_ ? chip.analogue_(static_cast<int>(mux.src), held) : 0.0;
   const auto millivolts = static_cast<std::uint32_t>(std::lround(5000.0 * std::clamp(share, 0.0, 1.0)));
