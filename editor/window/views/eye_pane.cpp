@@ -140,7 +140,7 @@ void EyePane::draw_chips(Session& session, const PaneRect& rect) {
   off.down = !view.rig_errors.empty();
   off.tip = {"What is seen where the rig is not quite as the project says: lens, poses, eyes, delay", {}, {}};
   if (chips.button("off-rig", off.down ? "Off" : "What if", off)) ImGui::OpenPopup(off_rig_popup);
-  draw_off_rig_popup(session);
+  draw_off_rig_popup(session, rect);
   const auto picture = session.eye_picture();
   if (picture->divisor > 1) chips.label("", picture->divisor == 2 ? "half size" : "quarter size");
 }

@@ -37,15 +37,21 @@ void draw_error(Session& session, const RigError& error) {
 
 }  // namespace
 
-void draw_off_rig_popup(Session& session) {
+void draw_off_rig_popup(Session& session, const PaneRect& beside) {
   const std::vector<RigError> errors = rig_errors(session.project());
   const float row = ImGui::GetFrameHeightWithSpacing();
   const auto rows = static_cast<float>(std::min(errors.size(), most_rows));
-  ImGui::SetNextWindowSize({px(384), (rows + 1.0f) * row + px(44)});
+  const ImVec2 size(px(384), (rows + 1.0f) * row + px(44));
+  const ImVec2 window = ImGui::GetIO().DisplaySize;
+  const glm::vec2 wanted(beside.min.x + beside.size.x + px(8), beside.min.y);
+  ImGui::SetNextWindowPos({std::max(0.0f, std::min(wanted.x, window.x - size.x - px(8))),
+                           std::max(0.0f, std::min(wanted.y, window.y - size.y - px(8)))});
+  ImGui::SetNextWindowSize(size);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {px(12), px(10)});
   const bool open = ImGui::BeginPopup(off_rig_popup, ImGuiWindowFlags_NoMove);
   ImGui::PopStyleVar();
   if (!open) return;
+  ImGui::AlignTextToFramePadding();
   text_line("What if the rig is off by", theme::text);
   ImGui::SameLine(px(262));
   ButtonStyle reset;

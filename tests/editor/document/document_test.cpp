@@ -179,7 +179,7 @@ TEST_CASE("a picture becomes a plane of its shape that shows its colours") {
   const auto reference = bring_in(in.path() / "flag.PNG", document->folder());
   REQUIRE_MESSAGE(reference.ok(), (reference.ok() ? "" : describe(reference.fault())));
   CHECK(*reference == "assets/flag.glb");
-  const auto read = AssetShelf::read(document->folder(), {*reference});
+  const auto read = AssetShelf::read(document->folder(), {AssetReference{*reference}});
   document->shelf().put(read);
   const auto& model = document->shelf().assets().models.at(*reference);
   const Bounds bounds = mesh_bounds(*model->nodes[0].parts[0].mesh);
