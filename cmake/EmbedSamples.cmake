@@ -19,11 +19,7 @@ foreach(file ${FILES})
   string(LENGTH "${hex}" digits)
   math(EXPR size "${digits} / 2")
   string(REGEX REPLACE "([0-9a-f][0-9a-f])" "\\\\x\\1" escaped "${hex}")
-  # Short pieces: each starts a new literal, so that no escape runs into the next character.
-  string(REGEX REPLACE "((\\\\x[0-9a-f][0-9a-f])+)" "\"\\1\"" literal "${escaped}")
-  if(size EQUAL 0)
-    set(literal "\"\"")
-  endif()
+  set(literal "\"${escaped}\"")  # every character is an escape, so that none runs into the next one
   string(APPEND arrays "constexpr char ${array}[] = ${literal};\n")
   string(APPEND entries_${id} "    {\"${path}\", {${array}, ${size}}},\n")
 endforeach()

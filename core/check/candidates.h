@@ -70,6 +70,11 @@ Candidates model_candidates(const Project& project, const Finding& finding, std:
 Candidates pixel_layout_candidates(const Project& project, const Finding& finding,
                                    std::span<const ProjectorModelData> models);
 
+// The light ----------------------------------------------------------------------------------------------------------
+
+/// A white that all surfaces can send back; or none of the compensation that asks for more.
+Candidates clipped_candidates(const Project& project, const Measured& measured);
+
 // The solver ---------------------------------------------------------------------------------------------------------
 
 /// Whether the solver can have a remedy for findings of this code: what slices and sweep do not reach.

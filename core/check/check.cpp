@@ -31,6 +31,7 @@ std::vector<Finding> check(const Project& project, const ScheduleResult& schedul
   const std::vector<Finding> planned = planned_findings(project, schedule.troubles, models);
   std::vector<Finding> findings = planned;
   append(findings, view_findings(project, measured));
+  append(findings, light_findings(project, measured, schedule.schedule));
   for (Finding& finding : findings) finding.remedy = remedy_for(project, finding, measured, planned, models);
   append(findings, mesh_findings(project, measured.meshes));
   const auto order = [](const Finding& finding) { return std::tie(finding.severity, finding.code, finding.where); };

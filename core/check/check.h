@@ -9,6 +9,8 @@
 #include "core/compile/frame.h"
 #include "core/optics/needs.h"
 #include "core/percept/conflict_meter.h"
+#include "core/percept/contrast.h"
+#include "core/percept/lit_surfaces.h"
 #include "core/process/report.h"
 #include "core/scene/finding.h"
 #include "core/scene/project.h"
@@ -32,12 +34,16 @@ std::vector<MeshState> mesh_states(const Project& project, const Stage& stage);
 /// What is wrong with them, each with the step, or the scale, that mends it.
 std::vector<Finding> mesh_findings(const Project& project, const std::vector<MeshState>& things);
 
+/// What its projector's light falls on at that moment, where contrast is a question: it leaks, or the room is lit.
+std::vector<LitSurface> surfaces_in_light(const Project& project, const Stage& stage);
+
 /// What was measured of a project's frames, as far as it was.
 struct Measured {
   std::vector<FrameMeasure> frames;
   std::vector<std::vector<ObjectCoverage>> coverage;  ///< per frame
   std::vector<ObjectConflict> conflicts;
   std::vector<MeshState> meshes;  ///< of the first frame
+  std::vector<LitSurface> lit;    ///< of the first frame
   std::optional<Needs> needs;     ///< of all frames: lets remedies come from the solver
 };
 

@@ -51,6 +51,7 @@ Candidates candidates_for(const Project& project, const Finding& finding, const 
   if (code == "optics.lens-range") return lens_range_candidates(project, finding);
   if (code == "optics.lens-current") return lens_current_candidates(project);
   if (code == "depth.out-of-range") return depth_candidates(project, finding, measured);
+  if (code == "light.clipped") return clipped_candidates(project, measured);
   if (code == "view.conflict") return conflict_candidates(project, finding);
   if (code == "projector.unknown-model") return model_candidates(project, finding, models);
   if (code == "projector.pixel-layout") return pixel_layout_candidates(project, finding, models);

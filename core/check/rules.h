@@ -18,6 +18,7 @@ inline constexpr double wide_spacing_d = 0.6;
 inline constexpr double widest_spacing_d = 1.0;
 inline constexpr double most_beyond_d = 0.3;
 inline constexpr double slowest_sweep_hz = 50.0;
+inline constexpr double least_contrast = 10.0;
 inline constexpr double largest_thing_m = 10.0;
 inline constexpr double smallest_thing_m = 1e-3;
 /// What rounding may add to a number without anybody having meant it.
@@ -29,6 +30,7 @@ std::vector<Finding> optics_findings(const Project& project);
 std::vector<Finding> projector_findings(const Project& project, std::span<const ProjectorModelData> models);
 std::vector<Finding> schedule_findings(const Project& project, const std::vector<SlotTrouble>& troubles);
 std::vector<Finding> view_findings(const Project& project, const Measured& measured);
+std::vector<Finding> light_findings(const Project& project, const Measured& measured, const Schedule& schedule);
 
 /// All of them that need nothing measured: what a remedy is tried against.
 std::vector<Finding> planned_findings(const Project& project, const std::vector<SlotTrouble>& troubles,

@@ -146,7 +146,8 @@ void check_light(const Project& project, const Measured& measured, std::vector<F
     defocused.see(share_of(measure.defocused_pixels, measure.surface_pixels), frame);
     worst_defocus_d = std::max(worst_defocus_d, measure.worst_defocus_d);
   }
-  if (clipped.share > 0.0) {
+  // With compensation it is said of each surface (light_rules.cpp).
+  if (clipped.share > 0.0 && project.slices.compensation.mode == CompensationMode::off) {
     findings.push_back(share_warning("light.clipped", "/projectors/0",
                                      "the lit pixels want more light than the projector has", clipped));
   }

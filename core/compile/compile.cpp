@@ -15,7 +15,9 @@
 #include "core/compile/optimal.h"
 #include "core/compile/pixel_looks.h"
 #include "core/compile/slice_tile.h"
+#include "core/compile/surface_gain.h"
 #include "core/compile/surface_hits.h"
+#include "core/compile/tile_clips.h"
 #include "core/mesh/solid.h"
 
 namespace focalstage {
@@ -45,6 +47,7 @@ struct RowTally {
   std::uint64_t lit_pixels = 0;
   std::uint64_t clipped_pixels = 0;
   std::vector<ObjectTally> objects;
+  std::vector<SurfaceAsked> surfaces;  ///< with compensation alone
 };
 
 /// A frame's images in the making.
@@ -53,6 +56,8 @@ struct Frame {
   PerEye<const OptimalChange*> changes;  ///< null without
   const Encoder* encoder;
   FrameImages* images;
+  const SurfaceGains* gains;  ///< null: no compensation
+  ClipMap* clips;             ///< null: nobody asks
 };
 
 void write_tile(const Frame& frame, std::size_t image, int tile_column, int tile_row, const TileLight& light,
@@ -77,24 +82,61 @@ void write_tile(const Frame& frame, std::size_t image, int tile_column, int tile
         most = std::max(most, value);
         *to++ = frame.encoder->code(value);
       }
-      constexpr float full = 1.0f + 1e-4f;  // the rounding of sums of weights is no clipping
+      constexpr float full = 1.0f + clip_tolerance;
       tally.lit_pixels += most > 0.0f ? 1 : 0;
       tally.clipped_pixels += most > full ? 1 : 0;
     }
   }
 }
 
+Side side_of(const ImageSpec& image) { return image.eye == ImageEye::left ? Side::left : Side::right; }
+
+/// The light that an image is to show in a tile, and for `kind` alone where an image carries both.
+void wanted_light(const Frame& frame, ImageSpec spec, ImageKind kind, int column, int row, TileLight& light,
+                  std::vector<ObjectTally>& tallies) {
+  spec.kind = kind;
+  light_of_tile(frame.run, spec, column, row, light, tallies);
+  if (kind == ImageKind::surface_light) return;
+  const OptimalChange* const change = frame.changes[side_of(spec)];
+  const auto tile = static_cast<std::size_t>(row * frame.run.rays->grid.columns() + column);
+  if (change != nullptr)
+    add_change(*change, tile, static_cast<std::size_t>(spec.slice), frame.run.slice.channels, light);
+}
+
+/// What the projector has to give so that the wanted light comes back.
+void compensated_light(const Frame& frame, const ImageSpec& spec, int column, int row, TileLight& light,
+                       std::vector<ObjectTally>& tallies) {
+  const auto tile = static_cast<std::size_t>(row * frame.run.rays->grid.columns() + column);
+  const TileGain& gain = frame.gains->tiles[tile];
+  const int channels = frame.run.slice.channels;
+  if (spec.kind == ImageKind::surface_light) {
+    wanted_light(frame, spec, spec.kind, column, row, light, tallies);
+    if (light.any) scale_surface_light(gain, channels, light);
+    return;
+  }
+  wanted_light(frame, spec, ImageKind::content, column, row, light, tallies);
+  if (light.any) compensate_content(gain, frame.gains->leak[side_of(spec)], channels, light);
+  if (spec.kind == ImageKind::content) return;
+  TileLight lit;
+  wanted_light(frame, spec, ImageKind::surface_light, column, row, lit, tallies);
+  if (!lit.any) return;
+  scale_surface_light(gain, channels, lit);
+  add_light(lit, channels, light);
+}
+
 void compile_tile(const Frame& frame, std::size_t image, int column, int row, RowTally& tally) {
   const ImageSpec& spec = frame.run.settings->images[image];
   TileLight light;
-  light_of_tile(frame.run, spec, column, row, light, tally.objects);
-  if (spec.kind != ImageKind::surface_light) {
-    const OptimalChange* const change = frame.changes[spec.eye == ImageEye::left ? Side::left : Side::right];
+  if (frame.gains == nullptr) {
+    wanted_light(frame, spec, spec.kind, column, row, light, tally.objects);
+  } else {
+    compensated_light(frame, spec, column, row, light, tally.objects);
     const auto tile = static_cast<std::size_t>(row * frame.run.rays->grid.columns() + column);
-    if (change != nullptr)
-      add_change(*change, tile, static_cast<std::size_t>(spec.slice), frame.run.slice.channels, light);
+    if (light.any)
+      count_asked(light, frame.run.met->tiles[tile], *frame.run.surfaces, frame.run.slice.channels, tally.surfaces);
   }
   write_tile(frame, image, column, row, light, tally);
+  if (frame.clips != nullptr && light.any) mark_clips(light, frame.run.slice.channels, column, row, *frame.clips);
 }
 
 std::vector<RowTally> compile_rows(const Frame& frame, std::stop_token stop) {
@@ -104,6 +146,7 @@ std::vector<RowTally> compile_rows(const Frame& frame, std::stop_token stop) {
   tbb::parallel_for(0, grid.rows(), [&](int row) {
     RowTally& tally = tallies[static_cast<std::size_t>(row)];
     tally.objects.resize(run.stage->objects.size());
+    if (frame.gains != nullptr) tally.surfaces.resize(run.stage->surfaces.size());
     if (stop.stop_requested()) return;
     for (std::size_t image = 0; image < run.settings->images.size(); ++image) {
       for (int column = 0; column < grid.columns(); ++column) compile_tile(frame, image, column, row, tally);
@@ -139,7 +182,10 @@ SurfaceMeasure measure_surface(const CompileSettings& settings, const ProjectorR
 FrameMeasure gather(const Stage& stage, const std::vector<RowTally>& tallies) {
   FrameMeasure measure;
   for (const StagedObject& object : stage.objects) measure.objects.push_back({object.index, 0, 0, 0.0});
+  if (!tallies.empty() && !tallies.front().surfaces.empty()) measure.surfaces.resize(stage.surfaces.size());
+  for (std::size_t i = 0; i < measure.surfaces.size(); ++i) measure.surfaces[i].index = stage.surfaces[i].index;
   for (const RowTally& row : tallies) {
+    for (std::size_t i = 0; i < row.surfaces.size(); ++i) add_asked(row.surfaces[i], measure.surfaces[i]);
     measure.lit_pixels += row.lit_pixels;
     measure.clipped_pixels += row.clipped_pixels;
     for (std::size_t i = 0; i < row.objects.size(); ++i) {
@@ -162,7 +208,7 @@ struct Compiler::State {
         arena(threads > 0 ? threads : tbb::task_arena::automatic),
         kernel(path == VectorPath::portable ? portable_kernel : best_kernel()),
         rule(settings.slices.powers_d, settings.slices.assignment),
-        encoder(settings.bits, settings.gamma) {}
+        encoder(settings.bits, settings.gamma, settings.transfer) {}
 
   /// Where the projector's rays end and what each eye sees of it; kept while surfaces and viewer stand still.
   void look_at_surfaces(const Stage& stage, const std::vector<ViewDrawable>& surfaces) {
@@ -174,6 +220,7 @@ struct Compiler::State {
     if (!same_surfaces) {
       met = projector_hits(*rays, settings.projector, surfaces, kernel);
       surface_measure = measure_surface(settings, *rays, *met);
+      gains = surface_gains(settings, *rays, *met, surfaces);
     }
     const PerEye<Eye> eyes = eyes_of(stage.world_from_viewer, stage.interpupillary_m, settings.lens_to_pupil_m);
     for (const Side side : both_sides) {
@@ -188,7 +235,7 @@ struct Compiler::State {
     interpupillary_before_m = stage.interpupillary_m;
   }
 
-  CompiledFrame frame(const Stage& stage, std::stop_token stop, FrameImages recycled) {
+  CompiledFrame frame(const Stage& stage, std::stop_token stop, FrameImages recycled, ClipMap* clips) {
     std::vector<ViewDrawable> surfaces = drawables_of(stage.surfaces);
     std::vector<ViewDrawable> objects = drawables_of(stage.objects);
     solid.mark(surfaces);
@@ -208,10 +255,14 @@ struct Compiler::State {
                 {&hits.left, &hits.right},
                 {&views.left, &views.right},
                 slice_setups(settings.slices, settings.lens_to_pupil_m),
-                {&kernel, &rule, settings.channels, 1.0f / static_cast<float>(rays->subsamples)}},
+                {&kernel, &rule, settings.channels, 1.0f / static_cast<float>(rays->subsamples),
+                 gains && settings.black_level > 0.0}},
                {nullptr, nullptr},
                &encoder,
-               &out.images};
+               &out.images,
+               gains ? &*gains : nullptr,
+               clips};
+    if (clips != nullptr) *clips = no_clips(out.images.width_px, out.images.height_px);
     const PerEye<Eye> eyes = eyes_of(stage.world_from_viewer, stage.interpupillary_m, settings.lens_to_pupil_m);
     tbb::parallel_for(0, 2, [&](int i) {
       const Side side = both_sides[static_cast<std::size_t>(i)];
@@ -262,6 +313,7 @@ struct Compiler::State {
   std::optional<ProjectorRays> rays;
   std::optional<ProjectorHits> met;
   SurfaceMeasure surface_measure;
+  std::optional<SurfaceGains> gains;
   PerEye<EyeHits> hits;
   PerEye<PixelLooks> looks;  ///< with `optimal` alone, as the two below
   PerEye<EyeView> views;
@@ -278,9 +330,9 @@ Compiler::~Compiler() = default;
 Compiler::Compiler(Compiler&&) noexcept = default;
 Compiler& Compiler::operator=(Compiler&&) noexcept = default;
 
-Result<CompiledFrame> Compiler::frame(const Stage& stage, std::stop_token stop, FrameImages recycled) {
+Result<CompiledFrame> Compiler::frame(const Stage& stage, std::stop_token stop, FrameImages recycled, ClipMap* clips) {
   CompiledFrame out;
-  state_->arena.execute([&] { out = state_->frame(stage, stop, std::move(recycled)); });
+  state_->arena.execute([&] { out = state_->frame(stage, stop, std::move(recycled), clips); });
   if (stop.stop_requested()) return Fault{"compile.cancelled", "", "compiling was cancelled", ""};
   return out;
 }

@@ -22,8 +22,9 @@ class Compiler {
   Compiler& operator=(Compiler&&) noexcept;
 
   /// The images of `stage`. Fault: "compile.cancelled" within milliseconds of a stop request. `recycled` gives back the
-  /// memory of an earlier frame.
-  Result<CompiledFrame> frame(const Stage& stage, std::stop_token stop = {}, FrameImages recycled = {});
+  /// memory of an earlier frame. `clips`: filled with where its light cannot be reached.
+  Result<CompiledFrame> frame(const Stage& stage, std::stop_token stop = {}, FrameImages recycled = {},
+                              ClipMap* clips = nullptr);
 
  private:
   struct State;

@@ -2,13 +2,15 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 namespace focalstage {
 
-/// Linear light to projector codes: round((2^bits - 1) min(1, L)^(1/gamma)), halves up.
+/// Linear light to projector codes: round((2^bits - 1) min(1, L)^(1/gamma)), halves up; by a measured `transfer` the
+/// code nearest to the place where it gives that light.
 class Encoder {
  public:
-  Encoder(int bits, double gamma);
+  Encoder(int bits, double gamma, const std::vector<double>& transfer = {});
 
   std::uint8_t code(float light) const {
     if (!(light > 0.0f)) return 0;

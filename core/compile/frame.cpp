@@ -12,9 +12,12 @@ CompileSettings compile_settings(const Project& project, std::size_t projector_i
   settings.channels = projector.color == ColorMode::rgb ? 3 : 1;
   settings.bits = projector.bits;
   settings.gamma = projector.gamma;
+  settings.transfer = projector.transfer;
+  settings.black_level = projector.black_level;
   settings.lens_to_pupil_m = project.glasses.lens_to_pupil_mm / 1000.0;
   settings.focus_m = projector.focus_m.value_or(0.0);
   settings.depth_of_field_d = projector.depth_of_field_d.value_or(0.0);
+  settings.reference_m = project.slices.compensation.reference_m.value_or(projector.focus_m.value_or(1.0));
   settings.slices = project.slices;
   settings.images = image_plan(project);
   return settings;

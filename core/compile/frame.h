@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -21,9 +22,12 @@ struct CompileSettings {
   int channels = 1;  ///< 1 gray, 3 rgb
   int bits = 8;
   double gamma = 1.0;
+  std::vector<double> transfer;  ///< in place of `gamma`; see Projector
+  double black_level = 0.0;
   double lens_to_pupil_m = 0.015;
   double focus_m = 0.0;  ///< the projector's; 0: not known, no defocus is reported
   double depth_of_field_d = 0.0;
+  double reference_m = 1.0;  ///< where light counts as 1, with compensation `even`
   Slices slices;
   std::vector<ImageSpec> images;
 
@@ -60,6 +64,21 @@ struct ObjectMeasure {
   double worst_above_d = 0.0;  ///< and above the highest
 };
 
+/// What the pixels of one surface were asked for beyond what can be had, over all images of a frame; with compensation
+/// alone. Shares of full white.
+struct SurfaceAsked {
+  std::size_t index = 0;                     ///< in the project's list
+  std::uint64_t lit_pixels = 0;              ///< that show content or light
+  std::uint64_t too_bright = 0;              ///< of those, wanted more than full white in some channel
+  std::uint64_t too_dark = 0;                ///< wanted less than leaks through black
+  std::array<std::uint64_t, 3> bright_in{};  ///< by channel
+  std::array<std::uint64_t, 3> dark_in{};
+  double most = 0.0;   ///< the most light wanted
+  double least = 0.0;  ///< the least, below black: not above 0
+
+  bool operator==(const SurfaceAsked&) const = default;
+};
+
 /// What the assignment `optimal` did for one eye: the error of the focal stack (what is seen at the focuses of the
 /// slices and half-way between, against the virtual scene itself) over the pixels near depth edges, in linear light.
 struct OptimalMeasure {
@@ -90,8 +109,17 @@ struct FrameMeasure {
   std::uint64_t surface_pixels = 0;    ///< projector pixels whose ray meets a surface
   std::uint64_t defocused_pixels = 0;  ///< of those, outside the projector's depth of field
   double worst_defocus_d = 0.0;
-  std::vector<ObjectMeasure> objects;  ///< one per staged object
-  PerEye<OptimalMeasure> optimal{};    ///< zero with other assignments
+  std::vector<ObjectMeasure> objects;    ///< one per staged object
+  PerEye<OptimalMeasure> optimal{};      ///< zero with other assignments
+  std::vector<SurfaceAsked> surfaces{};  ///< one per staged surface; none without compensation
+};
+
+/// Where a frame's light could not be reached, in the projector's pixels: the worst over its images and channels.
+struct ClipMap {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<float> bright;  ///< [row][column]: light wanted beyond full white, as a share of it; 0: reached
+  std::vector<float> dark;    ///< how far below black, as a share of full white
 };
 
 struct CompiledFrame {

@@ -19,6 +19,7 @@ void light_of_tile(const FrameRun& run, const ImageSpec& image, int column, int 
                    std::vector<ObjectTally>& tallies) {
   light.any = false;
   std::memset(light.channel, 0, sizeof(float) * tile_samples * static_cast<std::size_t>(run.slice.channels));
+  if (run.slice.keeps_weights) std::memset(light.weight, 0, sizeof(light.weight));
   const TileGrid& grid = run.rays->grid;
   for (int subsample = 0; subsample < run.rays->subsamples; ++subsample) {
     const std::size_t at = static_cast<std::size_t>(subsample) * grid.count() +

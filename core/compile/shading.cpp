@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "core/stage/texture_sample.h"
+
 namespace focalstage {
 namespace {
 

@@ -52,11 +52,4 @@ class Shader {
   glm::dvec3 uniform_color_{0.0};
 };
 
-/// A texture at `uv` in linear light: bilinear between texel centres or the texel it falls in, as the texture says;
-/// v = 0 at the bottom row.
-glm::dvec3 sample_texture(const Texture& texture, const glm::dvec2& uv);
-
-/// The texture's alpha there, likewise.
-double sample_alpha(const Texture& texture, const glm::dvec2& uv);
-
 }  // namespace focalstage

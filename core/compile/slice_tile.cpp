@@ -170,6 +170,7 @@ void slice_tile(const SliceRun& run, const EyeView& view, const EyeTile& tile, c
   const TileLit lit = run.kernel->lit(nearest, weights);
   if (lit.count == 0) return;
   light.any = true;
+  if (run.keeps_weights) run.kernel->add_even(weights, run.share, 1.0f, light.weight);
   const Shown shown{run, view, tile, looks, nearest, weights};
   const Counter counter(*run.rule);
   const std::uint32_t drawable = drawable_at(view, lit.lowest_triangle);

@@ -11,6 +11,7 @@ namespace focalstage {
 /// Light of one tile of one image, per channel, summed over the samples of its pixels.
 struct alignas(32) TileLight {
   float channel[3][tile_samples];
+  float weight[tile_samples];  ///< of all that is shown, whatever its colour; only where a run keeps weights
   bool any = false;
 };
 
@@ -28,7 +29,8 @@ struct SliceRun {
   const Kernel* kernel;
   const SliceRule* rule;
   int channels;
-  float share;  ///< of one sample in its pixel
+  float share;                 ///< of one sample in its pixel
+  bool keeps_weights = false;  ///< sums up TileLight::weight too
 };
 
 /// Adds what slice number `slice_index` of one eye shows in one tile: looks, the nearest object along each, its weight

@@ -3,11 +3,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <tbb/parallel_for.h>
 #include <glm/geometric.hpp>
 
 #include "core/optics/eye.h"
+#include "core/optics/pixel_density.h"
 #include "core/retina/slice_maps.h"
 #include "core/retina/surface_raster.h"
 
@@ -36,9 +38,11 @@ void add_things(const std::vector<Staged>& staged, SeenThing::Kind kind, ThingMa
 /// How bright a projector makes what it lights.
 class Brightness {
  public:
-  Brightness(const ProjectorModel& projector, const ProjectorFlux& flux)
+  /// `reference_m`: where light is counted as what would fall there.
+  Brightness(const ProjectorModel& projector, const ProjectorFlux& flux, const std::optional<double>& reference_m)
       : projector_from_world_(projector.world_from_projector.inverse()),
-        focal_area_px2_(projector.focal_px.x * projector.focal_px.y),
+        projector_(projector),
+        reference_per_m2_(reference_m ? pixels_per_m2_on_axis(projector, *reference_m) : 0.0),
         lumens_per_pixel_(flux.lumens / (static_cast<double>(projector.width_px) * projector.height_px) *
                           flux.exposure_share) {}
 
@@ -49,14 +53,16 @@ class Brightness {
     const glm::dvec3 normal = glm::normalize(glm::cross(mesh.points_m[corners.y] - a, mesh.points_m[corners.z] - a));
     const glm::dvec3 point_m = projector_from_world_.point(world_m);
     if (!(point_m.z < 0.0)) return 0.0;
-    const double facing_m = std::abs(glm::dot(projector_from_world_.direction(normal), point_m));
-    const double pixels_per_m2 = focal_area_px2_ * facing_m / (-point_m.z * point_m.z * point_m.z);
-    return lumens_per_pixel_ * pixels_per_m2 / std::numbers::pi;
+    const double per_m2 = reference_per_m2_ > 0.0
+                              ? reference_per_m2_
+                              : pixels_per_m2(projector_, point_m, projector_from_world_.direction(normal));
+    return lumens_per_pixel_ * per_m2 / std::numbers::pi;
   }
 
  private:
   Rigid projector_from_world_;
-  double focal_area_px2_;
+  ProjectorModel projector_;
+  double reference_per_m2_;  ///< 0: light is counted where it falls
   double lumens_per_pixel_;  ///< over a whole period, of one exposure at full code
 };
 
@@ -81,7 +87,7 @@ ThingMap things_seen(const RetinaInput& input, const RetinaView& view, const Pro
     if (stop.stop_requested()) return map;
   }
   const Rigid world_from_eye = eye.eye_from_world.inverse();
-  const Brightness brightness(input.projector, flux);
+  const Brightness brightness(input.projector, flux, input.falloff_reference_m);
   tbb::parallel_for(0, view.height_px, [&](int row) {
     for (int column = 0; column < view.width_px; ++column) {
       const std::size_t pixel =

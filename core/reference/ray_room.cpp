@@ -13,7 +13,8 @@ namespace {
 constexpr double last_part = 1e-3;  ///< of a way, where the thing itself stands
 
 /// Vertices and corners of all surfaces, handed to Embree.
-void add_triangles(RTCDevice device, RTCScene scene, const Drawable& drawn, const glm::dvec3& origin_m) {
+void add_triangles(RTCDevice device, RTCScene scene, unsigned number, const Drawable& drawn,
+                   const glm::dvec3& origin_m) {
   if (drawn.mesh->triangles.empty()) return;
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* const points = static_cast<float*>(rtcSetNewGeometryBuffer(
@@ -30,7 +31,7 @@ void add_triangles(RTCDevice device, RTCScene scene, const Drawable& drawn, cons
       for (int c = 0; c < 3; ++c) corners[3 * i + static_cast<std::size_t>(c)] = drawn.mesh->triangles[i][c];
     }
     rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene, geometry);
+    rtcAttachGeometryByID(scene, geometry, number);
   }
   rtcReleaseGeometry(geometry);
 }
@@ -65,6 +66,7 @@ struct RayRoom::State {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   glm::dvec3 origin_m{0.0};
+  std::vector<std::pair<std::size_t, std::size_t>> drawables;  ///< surface and drawable of each geometry
 
   ~State() {
     if (scene) rtcReleaseScene(scene);
@@ -79,8 +81,12 @@ Result<RayRoom> RayRoom::of(const std::vector<StagedSurface>& surfaces) {
   state->scene = rtcNewScene(state->device);
   rtcSetSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST);
   state->origin_m = first_point_m(surfaces);
-  for (const StagedSurface& surface : surfaces) {
-    for (const Drawable& drawn : surface.drawables) add_triangles(state->device, state->scene, drawn, state->origin_m);
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    for (std::size_t k = 0; k < surfaces[i].drawables.size(); ++k) {
+      const auto number = static_cast<unsigned>(state->drawables.size());
+      add_triangles(state->device, state->scene, number, surfaces[i].drawables[k], state->origin_m);
+      state->drawables.emplace_back(i, k);
+    }
   }
   rtcCommitScene(state->scene);
   if (const RTCError error = rtcGetDeviceError(state->device); error != RTC_ERROR_NONE) {
@@ -90,6 +96,11 @@ Result<RayRoom> RayRoom::of(const std::vector<StagedSurface>& surfaces) {
 }
 
 std::optional<double> RayRoom::first(const glm::dvec3& from_m, const glm::dvec3& along, double beyond) const {
+  const std::optional<RayHit> met = hit(from_m, along, beyond);
+  return met ? std::optional<double>(met->along) : std::nullopt;
+}
+
+std::optional<RayHit> RayRoom::hit(const glm::dvec3& from_m, const glm::dvec3& along, double beyond) const {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit hit{};
@@ -98,7 +109,9 @@ std::optional<double> RayRoom::first(const glm::dvec3& from_m, const glm::dvec3&
   hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(state_->scene, &context, &hit);
   if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return hit.ray.tfar;
+  const auto [surface, drawable] = state_->drawables[hit.hit.geomID];
+  const double u = hit.hit.u, v = hit.hit.v;
+  return RayHit{hit.ray.tfar, surface, drawable, hit.hit.primID, {1.0 - u - v, u, v}};
 }
 
 bool RayRoom::free(const glm::dvec3& from_m, const glm::dvec3& to_m) const {

@@ -6,15 +6,16 @@
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <glm/common.hpp>
 
+#include "core/reference/codes.h"
 #include "core/reference/colour.h"
 #include "core/reference/samples.h"
 
 namespace focalstage {
 namespace {
 
-constexpr double beyond_limit_d = 0.3;     ///< wanted powers further outside the slices are counted
-constexpr double full_light = 1.0 + 1e-4;  ///< the rounding of sums of weights is no clipping
+constexpr double beyond_limit_d = 0.3;  ///< wanted powers further outside the slices are counted
 
 /// What every row reads, and where it writes.
 struct Frame {
@@ -34,26 +35,38 @@ void count(const SliceSample& sample, FrameMeasure& measure) {
   own_side_d = std::max(own_side_d, sample.beyond_d);
 }
 
-/// Adds what a lit point shows to the light of every image.
-void add_sample(const Frame& frame, const LitPoint& lit, std::vector<glm::dvec3>& light, FrameMeasure& measure) {
+/// What a pixel is to show in one image, summed over its samples.
+struct Wanted {
+  glm::dvec3 content{0.0};
+  glm::dvec3 surface{0.0};  ///< surface light
+  double weight = 0.0;      ///< of the content
+};
+
+/// What of a pixel's light comes back, summed over its samples that meet a surface.
+struct Returned {
+  glm::dvec3 back{0.0};
+  double density = 0.0;
+  int count = 0;
+  std::size_t surface = 0;  ///< that of the first sample
+  bool first_meets = false;
+};
+
+/// Adds what a lit point shows to every image.
+void add_sample(const Frame& frame, const LitPoint& lit, std::vector<Wanted>& wanted, FrameMeasure& measure) {
   const PerEye<std::optional<EyePoint>> eyes{frame.samples.seen(Side::left, lit), frame.samples.seen(Side::right, lit)};
-  for (std::size_t i = 0; i < light.size(); ++i) {
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
     const ImageSpec& image = frame.settings.images[i];
-    if (image.kind != ImageKind::content) light[i] += glm::dvec3(frame.stage.surfaces[lit.surface].illumination);
+    if (image.kind != ImageKind::content)
+      wanted[i].surface += glm::dvec3(frame.stage.surfaces[lit.surface].illumination);
     if (image.kind == ImageKind::surface_light || image.eye == ImageEye::both) continue;
     const Side side = image.eye == ImageEye::left ? Side::left : Side::right;
     if (!eyes[side]) continue;
     const auto sample = frame.samples.slice(side, *eyes[side], static_cast<std::size_t>(image.slice));
     if (!sample || !(sample->weight > 0.0)) continue;
-    light[i] += sample->weight * sample->colour;
+    wanted[i].content += sample->weight * sample->colour;
+    wanted[i].weight += sample->weight;
     count(*sample, measure);
   }
-}
-
-std::uint8_t code(double light, const CompileSettings& settings) {
-  if (!(light > 0.0)) return 0;
-  const double levels = std::exp2(settings.bits) - 1.0;
-  return static_cast<std::uint8_t>(std::floor(levels * std::pow(std::min(1.0, light), 1.0 / settings.gamma) + 0.5));
 }
 
 /// Focus is asked of a pixel's first sample.
@@ -66,35 +79,92 @@ void measure_focus(const CompileSettings& settings, const std::optional<LitPoint
   measure.worst_defocus_d = std::max(measure.worst_defocus_d, off_d);
 }
 
-void write_pixel(const Frame& frame, int x, int y, const std::vector<glm::dvec3>& light, FrameMeasure& measure) {
+/// In the images' channels: a gray projector's is the luminance.
+glm::dvec3 in_channels(const glm::dvec3& colour, int channels) {
+  return channels == 1 ? glm::dvec3(luminance(colour)) : colour;
+}
+
+/// How many exposures of a period reach the eye that an image is for.
+int exposures_beside(const ImageSpec& image, const std::vector<ImageSpec>& images) {
+  int count = 0;
+  for (const ImageSpec& other : images) count += other.eye == image.eye || other.eye == ImageEye::both ? 1 : 0;
+  return count;
+}
+
+/// The light that the projector has to give in a pixel, full white being 1 and black 0, so that what is wanted comes
+/// back (docs/colour.md): everything that leaks meanwhile is part of what comes back.
+glm::dvec3 given(const Frame& frame, const ImageSpec& image, const Wanted& wanted, const Returned& returned) {
+  const double samples = frame.grid * frame.grid;
+  const CompileSettings& settings = frame.settings;
+  const glm::dvec3 content = in_channels(wanted.content / samples, settings.channels);
+  const glm::dvec3 surface = in_channels(wanted.surface / samples, settings.channels);
+  const Compensation& asked = settings.slices.compensation;
+  if (asked.mode == CompensationMode::off) return content + surface;
+  if (returned.count == 0) return glm::dvec3(0.0);
+  constexpr double least_back = 1e-6;  // less comes back from nothing real
+  const glm::dvec3 back = glm::max(in_channels(returned.back / static_cast<double>(returned.count), settings.channels),
+                                   glm::dvec3(least_back));
+  const double density = std::max(returned.density / returned.count, least_back);
+  const double leaks = settings.black_level * exposures_beside(image, settings.images) * wanted.weight / samples;
+  return (asked.white * content / back - leaks) / (1.0 - settings.black_level) + asked.white * surface / density;
+}
+
+void write_pixel(const Frame& frame, int x, int y, const std::vector<Wanted>& wanted, const Returned& returned,
+                 FrameMeasure& measure) {
   FrameImages& images = frame.images;
   const auto channels = static_cast<std::size_t>(images.channels);
   const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(images.width_px) + static_cast<std::size_t>(x);
-  for (std::size_t i = 0; i < light.size(); ++i) {
-    const glm::dvec3 mean = light[i] / static_cast<double>(frame.grid * frame.grid);
-    const glm::dvec3 shown = channels == 1 ? glm::dvec3(luminance(mean)) : mean;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const glm::dvec3 shown = given(frame, frame.settings.images[i], wanted[i], returned);
+    if (returned.first_meets && !measure.surfaces.empty())
+      count_asked(shown, images.channels, measure.surfaces[returned.surface]);
     const double brightest = std::max(shown.x, std::max(shown.y, shown.z));
     if (brightest > 0.0) ++measure.lit_pixels;
     if (brightest > full_light) ++measure.clipped_pixels;
     std::uint8_t* codes = &images.codes[i * images.bytes_per_image() + at * channels];
     for (std::size_t channel = 0; channel < channels; ++channel) {
-      codes[channel] = code(shown[static_cast<int>(channel)], frame.settings);
+      codes[channel] = code_of(shown[static_cast<int>(channel)], frame.settings);
     }
   }
 }
 
+/// Adds what comes back of the light that a sample's point gets.
+void add_return(const Frame& frame, const glm::dvec2& pixel, const LitPoint& lit, bool first, Returned& returned) {
+  const Compensation& asked = frame.settings.slices.compensation;
+  if (asked.mode == CompensationMode::off) return;
+  double density = 1.0;
+  if (asked.mode == CompensationMode::even) {
+    // A pixel square to the axis at the reference covers reference^2 / (fx fy); here it covers its footprint.
+    const ProjectorModel& projector = frame.settings.projector;
+    const double reference_m2 =
+        frame.settings.reference_m * frame.settings.reference_m / (projector.focal_px.x * projector.focal_px.y);
+    density = reference_m2 / frame.samples.footprint_m2(pixel, lit);
+  }
+  returned.back += frame.samples.albedo(lit) * density;
+  returned.density += density;
+  ++returned.count;
+  if (!first) return;
+  returned.first_meets = true;
+  returned.surface = lit.surface;
+}
+
 void compile_row(const Frame& frame, int y, FrameMeasure& measure) {
-  std::vector<glm::dvec3> light(frame.settings.images.size());
+  std::vector<Wanted> wanted(frame.settings.images.size());
   for (int x = 0; x < frame.images.width_px; ++x) {
-    std::fill(light.begin(), light.end(), glm::dvec3(0.0));
+    std::fill(wanted.begin(), wanted.end(), Wanted{});
+    Returned returned;
     for (int row = 0; row < frame.grid; ++row) {
       for (int column = 0; column < frame.grid; ++column) {
-        const auto lit = frame.samples.lit({x + (column + 0.5) / frame.grid, y + (row + 0.5) / frame.grid});
-        if (row == 0 && column == 0) measure_focus(frame.settings, lit, measure);
-        if (lit) add_sample(frame, *lit, light, measure);
+        const glm::dvec2 pixel{x + (column + 0.5) / frame.grid, y + (row + 0.5) / frame.grid};
+        const auto lit = frame.samples.lit(pixel);
+        const bool first = row == 0 && column == 0;
+        if (first) measure_focus(frame.settings, lit, measure);
+        if (!lit) continue;
+        add_sample(frame, *lit, wanted, measure);
+        add_return(frame, pixel, *lit, first, returned);
       }
     }
-    write_pixel(frame, x, y, light, measure);
+    write_pixel(frame, x, y, wanted, returned, measure);
   }
 }
 
@@ -111,6 +181,7 @@ void add(const FrameMeasure& row, FrameMeasure& sum) {
     sum.objects[i].worst_below_d = std::max(sum.objects[i].worst_below_d, row.objects[i].worst_below_d);
     sum.objects[i].worst_above_d = std::max(sum.objects[i].worst_above_d, row.objects[i].worst_above_d);
   }
+  for (std::size_t i = 0; i < sum.surfaces.size(); ++i) add(row.surfaces[i], sum.surfaces[i]);
 }
 
 }  // namespace
@@ -128,6 +199,9 @@ Result<CompiledFrame> compile_reference(const Stage& stage, const CompileSetting
       settings.images.size(), settings.projector.width_px, settings.projector.height_px, settings.channels, {}};
   out.images.codes.resize(out.images.count * out.images.bytes_per_image());
   for (const StagedObject& object : stage.objects) out.measure.objects.push_back({object.index, 0, 0, 0.0});
+  if (settings.slices.compensation.mode != CompensationMode::off) {
+    for (const StagedSurface& surface : stage.surfaces) out.measure.surfaces.push_back({surface.index});
+  }
 
   const int grid = static_cast<int>(std::lround(std::sqrt(settings.slices.samples_per_pixel)));
   const Frame frame{stage, settings, *samples, out.images, grid};

@@ -3,6 +3,9 @@
 #include <cmath>
 #include <utility>
 
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
 #include "core/optics/look.h"
 #include "core/optics/vergence.h"
 #include "core/reference/colour.h"
@@ -48,7 +51,28 @@ std::optional<LitPoint> Samples::lit(const glm::dvec2& pixel) const {
   if (!met) return std::nullopt;
   const glm::dvec3 point_m = glm::dvec3(tangent, -1.0) * met->depth_m;
   return LitPoint{settings_->projector.world_from_projector.point(point_m), met->depth_m, met->triangle,
-                  from_projector_.faces[met->triangle].thing};
+                  from_projector_.faces[met->triangle].thing, met->shares};
+}
+
+glm::dvec3 Samples::albedo(const LitPoint& lit) const {
+  const Face& face = from_projector_.faces[lit.face];
+  const Drawable& drawable = stage_->surfaces[face.thing].drawables[face.drawable];
+  return glm::clamp(colour_at(drawable, face.triangle, lit.shares, glm::dvec3(0.0), {}), 0.0, 1.0);
+}
+
+double Samples::footprint_m2(const glm::dvec2& pixel, const LitPoint& lit) const {
+  constexpr double step_px = 1e-2;
+  const ProjectorModel& projector = settings_->projector;
+  const glm::dvec3 normal = from_projector_.normal(lit.face);
+  const double away_m = glm::dot(normal, from_projector_.corners_m[lit.face][0]);
+  const glm::dvec2 place = place_of_pixel(projector, pixel);
+  const auto on_plane = [&](const glm::dvec2& aside) {
+    const glm::dvec3 ray(tangent_of_place(projector, place + aside), -1.0);
+    return ray * (away_m / glm::dot(normal, ray));
+  };
+  const glm::dvec3 across = on_plane({step_px, 0.0}) - on_plane({-step_px, 0.0});
+  const glm::dvec3 down = on_plane({0.0, step_px}) - on_plane({0.0, -step_px});
+  return glm::length(glm::cross(across, down)) / (4.0 * step_px * step_px);
 }
 
 std::optional<EyePoint> Samples::seen(Side side, const LitPoint& lit) const {

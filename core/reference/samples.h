@@ -23,6 +23,7 @@ struct LitPoint {
   double depth_m = 0.0;     ///< from the projector, along its -Z
   std::size_t face = 0;     ///< in the views of the surfaces, which list faces alike
   std::size_t surface = 0;  ///< in the stage's list
+  glm::dvec3 shares{0.0};   ///< the parts the face's corners have in it
 };
 
 /// The same point as one eye sees it.
@@ -57,6 +58,12 @@ class Samples {
 
   /// None where the look meets no object.
   std::optional<SliceSample> slice(Side side, const EyePoint& eye, std::size_t n) const;
+
+  /// What share of the light there comes back, by colour.
+  glm::dvec3 albedo(const LitPoint& lit) const;
+
+  /// The area, on the plane of the face, that the pixel about that place in the raster covers.
+  double footprint_m2(const glm::dvec2& pixel, const LitPoint& lit) const;
 
   const Eye& eye(Side side) const { return eyes_[side]; }
 

@@ -9,46 +9,19 @@
 
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "core/optics/eye.h"
+#include "core/optics/transfer.h"
+#include "core/reference/chances.h"
+#include "core/reference/colour.h"
 #include "core/reference/ray_room.h"
 
 namespace focalstage {
 namespace {
 
 constexpr double nearest_m = 1e-3;  ///< to the lens and to the projector, as in the compiler
-constexpr int dimensions = 9;
-
-/// The numbers that one ray needs, each in [0, 1).
-using Chances = std::array<double, dimensions>;
-
-double halton(std::uint32_t index, std::uint32_t base) {
-  double sum = 0.0, part = 1.0;
-  for (; index > 0; index /= base) {
-    part /= base;
-    sum += part * (index % base);
-  }
-  return sum;
-}
-
-std::uint64_t mixed(std::uint64_t x) {  // splitmix64's finalizer
-  x += 0x9e3779b97f4a7c15ull;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
-  return x ^ (x >> 31);
-}
-
-Chances chances_of(int pixel, int ray) {
-  constexpr std::array<std::uint32_t, dimensions> bases{2, 3, 5, 7, 11, 13, 17, 19, 23};
-  Chances chances;
-  for (std::size_t i = 0; i < dimensions; ++i) {
-    const std::uint64_t turn = mixed(static_cast<std::uint64_t>(pixel) * dimensions + i);
-    const double sum =
-        halton(static_cast<std::uint32_t>(ray + 1), bases[i]) + static_cast<double>(turn >> 11) * 0x1p-53;
-    chances[i] = sum - std::floor(sum);
-  }
-  return chances;
-}
 
 glm::dvec2 in_disc(double radius, double a, double b) {
   const double r = radius * std::sqrt(a), turn = 2.0 * std::numbers::pi * b;
@@ -75,10 +48,9 @@ class RayEye {
     // The same accommodation seen from the pupil, d_e further on: 1 / (1/a + d_e).
     focus_at_pupil_d_ = view.focus_d / (1.0 + view.focus_d * input.lens_to_pupil_m);
     if (view.diffraction && view.pupil_m > 0.0) diffraction_ = 2.0 * 0.42 * 550e-9 / view.pupil_m;
-    const int highest = (1 << input.bits) - 1;
     for (int code = 0; code < 256; ++code) {
       light_of_code_[static_cast<std::size_t>(code)] =
-          std::pow(static_cast<double>(std::min(code, highest)) / highest, input.gamma);
+          input.black_level + (1.0 - input.black_level) * share_of_code(code, input.bits, input.gamma, input.transfer);
     }
   }
 
@@ -87,35 +59,87 @@ class RayEye {
   /// Adds what one ray of one colour's focus (all of them: colour 0 of 1) brings of an exposure.
   void add(const RetinaExposure& exposure, const glm::dvec2& pixel, int colour, const Chances& chance, double weight,
            double* rgb) const {
-    const auto [power_d, share] = moment_of(exposure, chance[4]);
+    const auto [power_d, share] = moment_of(exposure.powers, chance[4]);
     if (!(share > 0.0)) return;
-    const std::optional<glm::dvec2> at = lit_by(pixel, colour, chance, power_d);
+    const std::optional<Spot> spot = spot_of(pixel, colour, chance, power_d);
+    const std::optional<glm::dvec2> at = spot ? projected(spot->world_m, chance) : std::nullopt;
     if (!at) return;
     const auto x = static_cast<std::size_t>(at->x), y = static_cast<std::size_t>(at->y);
     const auto width = static_cast<std::size_t>(input_.projector.width_px);
     const auto channels = static_cast<std::size_t>(input_.channels);
     const std::uint8_t* const codes = &exposure.codes[(y * width + x) * channels];
+    const glm::dvec3 back = albedo(spot->hit) * density(*spot);
     for (std::size_t c = 0; c < 3; ++c) {
       if (view_.chromatic && static_cast<int>(c) != colour) continue;
-      rgb[c] += weight * share * light_of_code_[codes[channels == 3 ? c : 0]];
+      rgb[c] += weight * share * light_of_code_[codes[channels == 3 ? c : 0]] * back[static_cast<int>(c)];
+    }
+  }
+
+  /// The same of the room's own light, which falls on all that is there.
+  void add_ambient(const glm::dvec2& pixel, int colour, const Chances& chance, double weight, double* rgb) const {
+    const auto [power_d, share] = moment_of(input_.ambient, chance[4]);
+    if (!(share > 0.0)) return;
+    const std::optional<Spot> spot = spot_of(pixel, colour, chance, power_d);
+    if (!spot) return;
+    const glm::dvec3 back = albedo(spot->hit);
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (view_.chromatic && static_cast<int>(c) != colour) continue;
+      rgb[c] += weight * share * back[static_cast<int>(c)];
     }
   }
 
  private:
   /// A moment of the exposure: all moments are as likely as their share, whose sum every ray carries.
-  static PowerShare moment_of(const RetinaExposure& exposure, double chance) {
+  static PowerShare moment_of(const std::vector<PowerShare>& powers, double chance) {
     double all = 0.0;
-    for (const PowerShare& part : exposure.powers) all += part.share;
+    for (const PowerShare& part : powers) all += part.share;
     double left = chance * all;
-    for (const PowerShare& part : exposure.powers) {
+    for (const PowerShare& part : powers) {
       left -= part.share;
       if (left < 0.0) return {part.power_d, all};
     }
-    return {exposure.powers.empty() ? 0.0 : exposure.powers.back().power_d, all};
+    return {powers.empty() ? 0.0 : powers.back().power_d, all};
   }
 
-  /// The place in the projector's image from which the light of a ray into the eye comes.
-  std::optional<glm::dvec2> lit_by(const glm::dvec2& pixel, int colour, const Chances& chance, double power_d) const {
+  /// Where a ray into the eye comes from.
+  struct Spot {
+    RayHit hit;
+    glm::dvec3 world_m;
+  };
+
+  const Drawable& drawable(const RayHit& hit) const {
+    return input_.stage->surfaces[hit.surface].drawables[hit.drawable];
+  }
+
+  glm::dvec3 albedo(const RayHit& hit) const {
+    return glm::clamp(colour_at(drawable(hit), hit.triangle, hit.shares, glm::dvec3(0.0), {}), 0.0, 1.0);
+  }
+
+  /// Pixels on a little square of the surface there, against one square to the axis at the reference.
+  double density(const Spot& spot) const {
+    if (!input_.falloff_reference_m) return 1.0;
+    constexpr double side_m = 1e-4;
+    const Drawable& drawn = drawable(spot.hit);
+    const glm::uvec3& corners = drawn.mesh->triangles[spot.hit.triangle];
+    const auto point = [&](std::uint32_t i) {
+      return glm::dvec3(drawn.world_from_mesh * glm::dvec4(drawn.mesh->positions_m[i], 1.0));
+    };
+    const glm::dvec3 edge = point(corners.y) - point(corners.x);
+    const glm::dvec3 normal = glm::cross(edge, point(corners.z) - point(corners.x));
+    const glm::dvec3 u = glm::normalize(edge), v = glm::normalize(glm::cross(normal, edge));
+    const auto place = [&](const glm::dvec3& world_m) {
+      const glm::dvec3 seen_m = projector_from_world_.point(world_m);
+      return place_of_tangent(input_.projector, glm::dvec2(seen_m) / -seen_m.z);
+    };
+    const glm::dvec2 across = place(spot.world_m + 0.5 * side_m * u) - place(spot.world_m - 0.5 * side_m * u);
+    const glm::dvec2 up = place(spot.world_m + 0.5 * side_m * v) - place(spot.world_m - 0.5 * side_m * v);
+    const double pixels_per_m2 = std::abs(across.x * up.y - across.y * up.x) / (side_m * side_m);
+    const double reference_m = *input_.falloff_reference_m;
+    return pixels_per_m2 * reference_m * reference_m / (input_.projector.focal_px.x * input_.projector.focal_px.y);
+  }
+
+  /// The spot of a surface that a ray into the eye comes from.
+  std::optional<Spot> spot_of(const glm::dvec2& pixel, int colour, const Chances& chance, double power_d) const {
     const double lens_m = input_.lens_to_pupil_m;
     const glm::dvec2 look = look_of_pixel(view_, pixel) + in_disc(diffraction_, chance[5], chance[6]);
     const glm::dvec2 pupil_m = in_disc(view_.pupil_m / 2.0, chance[2], chance[3]);
@@ -126,11 +150,12 @@ class RayEye {
     const glm::dvec2 beyond = slope - power_d * at_lens_m;
     const glm::dvec3 from_m = world_from_eye_.point({at_lens_m, -lens_m});
     const glm::dvec3 along = world_from_eye_.direction({beyond, -1.0});
-    const std::optional<double> far = room_.first(from_m, along, nearest_m);
-    if (!far) return std::nullopt;
-    return projected(from_m + along * *far, chance);
+    const std::optional<RayHit> met = room_.hit(from_m, along, nearest_m);
+    if (!met) return std::nullopt;
+    return Spot{*met, from_m + along * met->along};
   }
 
+  /// The place in the projector's image from which a spot has its light.
   std::optional<glm::dvec2> projected(const glm::dvec3& spot_m, const Chances& chance) const {
     const ProjectorModel& projector = input_.projector;
     const glm::dvec3 seen_m = projector_from_world_.point(spot_m);
@@ -177,6 +202,7 @@ void see_pixel(const RayEye& eye, const RetinaInput& input, const RetinaView& vi
       for (int colour = 0; colour < eye.colours(); ++colour)
         eye.add(exposure, pixel, colour, chance, 1.0 / per_pixel, sum);
     }
+    for (int colour = 0; colour < eye.colours(); ++colour) eye.add_ambient(pixel, colour, chance, 1.0 / per_pixel, sum);
   }
   for (int c = 0; c < 3; ++c) rgb[c] = static_cast<float>(sum[c]);
 }

@@ -57,7 +57,8 @@ ExposureLights::Key ExposureLights::key_of(const RetinaInput& input, std::size_t
           input.projector.height_px,
           input.channels,
           input.bits,
-          input.gamma};
+          input.gamma,
+          input.transfer};
 }
 
 std::vector<const ExposureLight*> ExposureLights::of(const RetinaInput& input, const std::vector<Pass>& passes,
@@ -65,9 +66,10 @@ std::vector<const ExposureLight*> ExposureLights::of(const RetinaInput& input, c
                                                      const std::stop_token& stop) {
   std::vector<std::shared_ptr<const Kept>> used;
   std::vector<const ExposureLight*> lights(input.exposures.size(), nullptr);
-  const auto light_of_code = light_of_codes(input.bits, input.gamma);
+  const auto light_of_code = light_of_codes(input.bits, input.gamma, input.transfer);
   for (std::size_t i = 0; i < passes.size(); ++i) {
     const std::size_t exposure = passes[i].exposure;
+    if (passes[i].is_ambient()) continue;
     if (!maps[i]->any || lights[exposure]) continue;
     const Key key = key_of(input, exposure, *maps[i]);
     const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const auto& one) { return one->key == key; });

@@ -41,6 +41,7 @@ class ExposureLights {
     int channels = 1;
     int bits = 8;
     double gamma = 1.0;
+    std::vector<double> transfer{};
 
     bool operator==(const Key&) const = default;
   };

@@ -1,5 +1,6 @@
 #include "core/retina/retina.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -44,6 +45,19 @@ Status check_exposures(const RetinaInput& input) {
   return {};
 }
 
+Status check_light(const RetinaInput& input) {
+  if (!within(input.black_level, 0.0, 0.5)) return unfit("the black level lies outside 0 to 0.5");
+  const auto is_share = [](double share) { return within(share, 0.0, 1.0); };
+  if (input.transfer.size() == 1 || !std::all_of(input.transfer.begin(), input.transfer.end(), is_share))
+    return unfit("the transfer function is no list of shares");
+  if (input.falloff_reference_m && !within(*input.falloff_reference_m, 1e-3, 1e6))
+    return unfit("the reference of the light lies outside 1 mm to 1000 km");
+  for (const PowerShare& part : input.ambient) {
+    if (!std::isfinite(part.power_d) || !within(part.share, 0.0, 1e6)) return unfit("the room's light is no number");
+  }
+  return {};
+}
+
 }  // namespace
 
 Status check_retina(const RetinaInput& input, const RetinaView& view) {
@@ -52,6 +66,7 @@ Status check_retina(const RetinaInput& input, const RetinaView& view) {
   if (input.channels != 1 && input.channels != 3) return unfit("images have one or three channels");
   if (!within(input.bits, 1, 8)) return unfit("codes have one to eight bits");
   if (!within(input.gamma, 0.1, 10.0)) return unfit("the projector's gamma lies outside 0.1 to 10");
+  if (Status fits = check_light(input); !fits) return fits;
   if (!within(input.lens_to_pupil_m, 0.0, 1.0)) return unfit("the lens lies outside 0 to 1 m before the pupil");
   if (!within(input.lens_aperture_m, 0.0, 1.0)) return unfit("the lens aperture lies outside 0 to 1 m");
   if (!within(std::abs(input.projector_focus.focus_d), 0.0, 1e3) ||

@@ -41,24 +41,35 @@ Pass together(const std::vector<PowerShare>& powers, std::size_t from, std::size
   return {0, share > 0.0 ? power_d / share : 0.0, static_cast<float>(share)};
 }
 
+/// Adds the passes of one exposure, or of the room's light.
+void add_passes(const std::vector<PowerShare>& powers, std::size_t exposure, double each_d, std::vector<Pass>& passes) {
+  const auto [low_d, high_d] = range_of(powers);
+  if (!(low_d <= high_d)) return;
+  const double wanted = std::ceil((high_d - low_d) / each_d);
+  const std::size_t parts =
+      std::clamp(static_cast<std::size_t>(std::min(wanted, 1e3)), std::size_t{1}, std::min(most_parts, powers.size()));
+  for (std::size_t part = 0; part < parts; ++part) {
+    Pass pass = together(powers, part * powers.size() / parts, (part + 1) * powers.size() / parts);
+    pass.exposure = exposure;
+    if (pass.share > 0.0f) passes.push_back(pass);
+  }
+}
+
+/// A pass stands for half of that to each side.
+double each_d(const RetinaInput& input, const RetinaView& view) { return 2.0 * tolerance_px / px_per_d(input, view); }
+
 }  // namespace
 
 std::vector<Pass> passes_of(const RetinaInput& input, const RetinaView& view) {
-  const double each_d = 2.0 * tolerance_px / px_per_d(input, view);  // a pass stands for half of that to each side
   std::vector<Pass> passes;
-  for (std::size_t i = 0; i < input.exposures.size(); ++i) {
-    const std::vector<PowerShare>& powers = input.exposures[i].powers;
-    const auto [low_d, high_d] = range_of(powers);
-    if (!(low_d <= high_d)) continue;
-    const double wanted = std::ceil((high_d - low_d) / each_d);
-    const std::size_t parts = std::clamp(static_cast<std::size_t>(std::min(wanted, 1e3)), std::size_t{1},
-                                         std::min(most_parts, powers.size()));
-    for (std::size_t part = 0; part < parts; ++part) {
-      Pass pass = together(powers, part * powers.size() / parts, (part + 1) * powers.size() / parts);
-      pass.exposure = i;
-      if (pass.share > 0.0f) passes.push_back(pass);
-    }
-  }
+  for (std::size_t i = 0; i < input.exposures.size(); ++i)
+    add_passes(input.exposures[i].powers, i, each_d(input, view), passes);
+  return passes;
+}
+
+std::vector<Pass> ambient_passes_of(const RetinaInput& input, const RetinaView& view) {
+  std::vector<Pass> passes;
+  add_passes(input.ambient, Pass::ambient, each_d(input, view), passes);
   return passes;
 }
 

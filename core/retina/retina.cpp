@@ -1,6 +1,7 @@
 #include "core/retina/retina.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include <tbb/parallel_for.h>
@@ -14,6 +15,7 @@
 #include "core/retina/lens_rim.h"
 #include "core/retina/pass_painter.h"
 #include "core/retina/passes.h"
+#include "core/retina/return_painter.h"
 #include "core/retina/sight_at.h"
 #include "core/retina/slice_maps.h"
 
@@ -32,14 +34,40 @@ struct Radii {
   float most_px = 0.0f;
 };
 
-Radii radii_of(const Focus& focus, const std::vector<const SliceMap*>& maps) {
+/// Of what is lit through one power, or of all that is seen.
+struct Vergences {
+  float lowest_d = std::numeric_limits<float>::infinity();
+  float highest_d = -std::numeric_limits<float>::infinity();
+
+  void include(const SliceSpot& spot) {
+    if (!spot.seen()) return;
+    lowest_d = std::min(lowest_d, spot.vergence_d);
+    highest_d = std::max(highest_d, spot.vergence_d);
+  }
+};
+
+Vergences vergences_of(const SliceMap& map, bool also_unlit) {
+  if (!also_unlit && map.any) return {map.lowest_vergence_d, map.highest_vergence_d};
+  Vergences all;
+  if (!also_unlit) return all;
+  for (const SliceSpot& spot : map.spots) all.include(spot);
+  for (const std::vector<EdgePixel>& row : map.edges) {
+    for (const EdgePixel& pixel : row) {
+      for (const SliceSpot& part : pixel.spots) all.include(part);
+    }
+  }
+  return all;
+}
+
+Radii radii_of(const Focus& focus, const std::vector<Pass>& passes, const std::vector<const SliceMap*>& maps) {
   Radii all{BlurLayers::most_radius_px, 0.0f};
-  for (const SliceMap* map : maps) {
-    if (!map->any) continue;
+  for (std::size_t i = 0; i < maps.size(); ++i) {
+    const Vergences seen = vergences_of(*maps[i], passes[i].is_ambient());
+    if (!(seen.lowest_d <= seen.highest_d)) continue;
     for (int channel = 0; channel < focus.channels(); ++channel) {
-      const float low_px = focus.radius_px(map->lowest_vergence_d, channel);
-      const float high_px = focus.radius_px(map->highest_vergence_d, channel);
-      const bool sharp = focus.between(map->lowest_vergence_d, map->highest_vergence_d, channel);
+      const float low_px = focus.radius_px(seen.lowest_d, channel);
+      const float high_px = focus.radius_px(seen.highest_d, channel);
+      const bool sharp = focus.between(seen.lowest_d, seen.highest_d, channel);
       all.least_px = std::min(all.least_px, sharp ? focus.least_px() : std::min(low_px, high_px));
       all.most_px = std::max({all.most_px, low_px, high_px});
     }
@@ -98,13 +126,15 @@ struct Retina::State {
 Result<RetinaImage> Retina::State::view(const RetinaInput& input, const RetinaView& view, const std::stop_token& stop) {
   const Focus focus(input, view);
   const LensRim rim(input, view);
-  const std::vector<Pass> passes = passes_of(input, view);
+  std::vector<Pass> passes = passes_of(input, view);
+  const std::vector<Pass> ambient = ambient_passes_of(input, view);
+  passes.insert(passes.end(), ambient.begin(), ambient.end());
   std::vector<const SliceMap*> seen;
   Radii radii;
   for (bool wide_enough = false; !wide_enough;) {
     seen = maps.of(input, view, margin_px, powers_of(passes), stop);
     if (stop.stop_requested()) return cancelled;
-    radii = radii_of(focus, seen);
+    radii = radii_of(focus, passes, seen);
     wide_enough = radii.most_px <= static_cast<float>(margin_px);
     while (static_cast<float>(margin_px) < radii.most_px) margin_px *= 2;
   }
@@ -113,12 +143,13 @@ Result<RetinaImage> Retina::State::view(const RetinaInput& input, const RetinaVi
   const std::vector<const ExposureLight*> lights = exposures.of(input, passes, seen, stop);
   if (stop.stop_requested()) return cancelled;
   const LookGrid grid = grid_of(view, margin);
-  const int channels = focus.channels() == 3 ? 3 : input.channels;
-  BlurLayers layers(grid.width_px, grid.height_px, channels, radii.least_px, radii.most_px);
-  const auto light_of_code = light_of_codes(input.bits, input.gamma);
+  const auto light_of_code = light_of_codes(input.bits, input.gamma, input.transfer);
   const PaintWork work{passes, seen, lights, light_of_code, input, focus, rim};
+  const bool returned = needs_returns(work);
+  const int channels = focus.channels() == 3 || returned ? 3 : input.channels;
+  BlurLayers layers(grid.width_px, grid.height_px, channels, radii.least_px, radii.most_px);
   tbb::parallel_for(0, grid.height_px, [&](int row) {
-    if (!stop.stop_requested()) paint_row(work, row, layers);
+    if (!stop.stop_requested()) (returned ? paint_returned_row : paint_row)(work, row, layers);
   });
   const std::vector<float> planes = layers.blurred(stop);
   if (stop.stop_requested()) return cancelled;

@@ -43,11 +43,17 @@ struct ProjectorFocus {
 
 /// The rig and what it shows this eye.
 struct RetinaInput {
-  const Stage* stage = nullptr;  ///< surfaces and viewer; virtual objects do not matter
+  const Stage* stage = nullptr;  ///< surfaces with their albedo, and viewer; virtual objects do not matter
   ProjectorModel projector;
   int channels = 1;  ///< 1 gray, 3 rgb
   int bits = 8;
   double gamma = 1.0;
+  std::vector<double> transfer{};  ///< in place of `gamma`; see Projector
+  double black_level = 0.0;        ///< what every exposure leaks, as a share of full white
+  /// Light thins with distance and angle as pixels do, 1 being what falls on the axis this far away; none: all alike.
+  std::optional<double> falloff_reference_m{};
+  std::vector<PowerShare>
+      ambient{};  ///< the room's light on white, in full codes, and the lens powers it is seen through
   double lens_to_pupil_m = 0.015;
   double lens_aperture_m = 0.016;  ///< diameter; rays that miss it are lost
   ProjectorFocus projector_focus;

@@ -5,6 +5,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/optics/transfer.h"
 #include "core/retina/disc.h"
 
 namespace focalstage {
@@ -100,13 +101,10 @@ AveragedRows averaged_rows(std::span<const std::uint8_t> codes, const Plane& pla
 
 }  // namespace
 
-std::array<float, 256> light_of_codes(int bits, double gamma) {
+std::array<float, 256> light_of_codes(int bits, double gamma, const std::vector<double>& transfer) {
   std::array<float, 256> light{};
-  const int highest = (1 << bits) - 1;
-  for (int code = 0; code < 256; ++code) {
-    light[static_cast<std::size_t>(code)] =
-        static_cast<float>(std::pow(static_cast<double>(std::min(code, highest)) / highest, gamma));
-  }
+  for (int code = 0; code < 256; ++code)
+    light[static_cast<std::size_t>(code)] = static_cast<float>(share_of_code(code, bits, gamma, transfer));
   return light;
 }
 

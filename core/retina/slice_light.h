@@ -13,8 +13,9 @@
 
 namespace focalstage {
 
-/// Linear light of each projector code: (code / (2^bits - 1))^gamma, the encoder's inverse.
-std::array<float, 256> light_of_codes(int bits, double gamma);
+/// Linear light of each projector code, black taken for dark: (code / (2^bits - 1))^gamma or by the measured
+/// `transfer`, the encoder's inverse.
+std::array<float, 256> light_of_codes(int bits, double gamma, const std::vector<double>& transfer = {});
 
 /// One image of the projector in linear light, so averaged that reading between its pixels gives the mean over the
 /// rectangle that a retinal pixel sees of it: each projector pixel is a square of even light. A frame of one pixel

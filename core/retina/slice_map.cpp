@@ -70,19 +70,27 @@ SliceMap slice_map(const SliceScene& scene, const SliceEye& eye, const LookGrid&
   const SurfaceRaster raster =
       raster_surfaces(scene.mesh, eye.slice_from_world, narrowed, eye.behind_lens_m + nearest_seen_m, stop);
   const Spotter spotter(raster, scene, eye);
+  if (scene.paint) map.returns.resize(map.spots.size());
   tbb::parallel_for(0, grid.height_px, [&](int row) {
     if (stop.stop_requested()) return;
-    spotter.row(grid, row, &map.spots[static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width_px)]);
+    const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.width_px);
+    spotter.row(grid, row, &map.spots[first], scene.paint ? &map.returns[first] : nullptr);
   });
   if (stop.stop_requested()) return map;
   const std::vector<EdgeFaces::Pixel> edges = spotter.edges(map.spots);
   const EdgeFaces faces(raster, edges);
   std::vector<EdgePixel> parts(edges.size());
+  std::vector<EdgeReturns> returns(scene.paint ? edges.size() : 0);
   tbb::parallel_for(std::size_t{0}, edges.size(), [&](std::size_t i) {
-    if (!stop.stop_requested()) parts[i] = spotter.parts_of(grid, edges[i], faces);
+    if (!stop.stop_requested())
+      parts[i] = spotter.parts_of(grid, edges[i], faces, scene.paint ? returns[i].data() : nullptr);
   });
   map.edges.resize(static_cast<std::size_t>(grid.height_px));
-  for (std::size_t i = 0; i < edges.size(); ++i) map.edges[static_cast<std::size_t>(edges[i].row)].push_back(parts[i]);
+  map.edge_returns.resize(scene.paint ? map.edges.size() : 0);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    map.edges[static_cast<std::size_t>(edges[i].row)].push_back(parts[i]);
+    if (scene.paint) map.edge_returns[static_cast<std::size_t>(edges[i].row)].push_back(returns[i]);
+  }
   measure(raster, scene.margin_px, map);
   return map;
 }

@@ -9,6 +9,7 @@
 #include "core/retina/projector_light.h"
 #include "core/retina/retina.h"
 #include "core/retina/slice_eye.h"
+#include "core/retina/surface_paint.h"
 #include "core/retina/surface_raster.h"
 
 namespace focalstage {
@@ -27,6 +28,9 @@ struct SliceSpot {
   bool seen() const { return vergence_d == vergence_d; }
 };
 
+/// Of the sixteenths of a pixel.
+using EdgeReturns = std::array<SpotReturn, 16>;
+
 /// A pixel in which the edge of a surface or of a shadow lies: what its sixteenths meet.
 struct EdgePixel {
   static constexpr int across = 4;
@@ -39,9 +43,11 @@ struct EdgePixel {
 struct SliceMap {
   LookGrid grid;
   double power_d = 0.0;
-  std::vector<SliceSpot> spots;               ///< [row][column], of the pixels' centres
-  std::vector<std::vector<EdgePixel>> edges;  ///< [row], by column
-  float lowest_vergence_d = 0.0f;             ///< of the lit spots
+  std::vector<SliceSpot> spots;                        ///< [row][column], of the pixels' centres
+  std::vector<std::vector<EdgePixel>> edges;           ///< [row], by column
+  std::vector<SpotReturn> returns;                     ///< of the spots; none where surfaces are plain
+  std::vector<std::vector<EdgeReturns>> edge_returns;  ///< of the edges
+  float lowest_vergence_d = 0.0f;                      ///< of the lit spots
   float highest_vergence_d = 0.0f;
   float most_spread_px = 0.0f;
   glm::dvec2 seen_px{1.0};  ///< sides of the rectangle of the projector's image that a pixel of the grid sees
@@ -57,6 +63,7 @@ struct SliceMap {
 struct SliceScene {
   const SurfaceMesh& mesh;
   const ProjectorLight& light;
+  const SurfacePaint* paint = nullptr;  ///< null: plain
   ProjectorFocus focus;
   double widest_off_axis_m = 0.0;
   int margin_px = 0;  ///< of the grid, around the picture: what is measured of looks is measured in the picture

@@ -50,15 +50,20 @@ LookGrid grid_of(const RetinaView& view, int margin_px) {
 bool SliceMaps::stand(const RetinaInput& input, const std::stop_token& stop) {
   std::vector<Standing> now;
   for (const StagedSurface& surface : input.stage->surfaces) {
-    for (const Drawable& drawable : surface.drawables) now.push_back({drawable.mesh, drawable.world_from_mesh});
+    for (const Drawable& drawable : surface.drawables) {
+      now.push_back({drawable.mesh, drawable.world_from_mesh, drawable.finish});
+    }
   }
   const bool same = light_ && now == standing_;
-  if (same && projector_ == input.projector) return false;
+  if (same && projector_ == input.projector && falloff_reference_m_ == input.falloff_reference_m) return false;
   maps_.clear();
   light_.reset();
   if (!same) mesh_ = surface_mesh(input.stage->surfaces);
   standing_ = std::move(now);
   projector_ = input.projector;
+  falloff_reference_m_ = input.falloff_reference_m;
+  paint_ = std::make_unique<const SurfacePaint>(input, mesh_);
+  if (paint_->plain()) paint_.reset();
   ProjectorLight light(mesh_, projector_, stop);
   if (!stop.stop_requested()) light_ = std::move(light);
   return true;
@@ -96,7 +101,8 @@ std::vector<const SliceMap*> SliceMaps::of(const RetinaInput& input, const Retin
       all.push_back(map);
       continue;
     }
-    const SliceScene scene{mesh_, *light_, viewpoint.projector_focus, viewpoint.widest_off_axis_m, margin_px};
+    const SliceScene scene{mesh_,    *light_, paint_.get(), viewpoint.projector_focus, viewpoint.widest_off_axis_m,
+                           margin_px};
     auto made = std::make_unique<SliceMap>(slice_map(scene, slice_eye(eye, power_d), grid, stop));
     if (stop.stop_requested()) return {};
     maps_.push_back(std::move(made));

@@ -31,6 +31,7 @@ class SliceMaps {
   struct Standing {
     std::shared_ptr<const Mesh> mesh;
     glm::dmat4 world_from_mesh{1.0};
+    Finish finish{};
 
     bool operator==(const Standing&) const = default;
   };
@@ -55,6 +56,8 @@ class SliceMaps {
   SurfaceMesh mesh_;
   ProjectorModel projector_;
   std::optional<ProjectorLight> light_;
+  std::optional<double> falloff_reference_m_;
+  std::unique_ptr<const SurfacePaint> paint_;  ///< null: plain
   std::optional<Viewpoint> viewpoint_;
   std::vector<std::unique_ptr<SliceMap>> maps_;
 };

@@ -30,17 +30,19 @@ Spotter::Spotter(const SurfaceRaster& raster, const SliceScene& scene, const Sli
 
 bool Spotter::through_lens(const glm::dvec2& look) const { return !(glm::dot(look, look) > most_look_squared_); }
 
-void Spotter::row(const LookGrid& grid, int row, SliceSpot* spots) const {
+void Spotter::row(const LookGrid& grid, int row, SliceSpot* spots, SpotReturn* returns) const {
   for (int column = 0; column < grid.width_px; ++column) {
     const std::uint32_t face = raster_.at(column, row);
     const glm::dvec2 look = grid.look(column, row);
-    if (face != SurfaceRaster::nothing && through_lens(look)) spots[column] = spot(look, face);
+    if (face != SurfaceRaster::nothing && through_lens(look)) {
+      spots[column] = spot(look, face, returns ? returns + column : nullptr);
+    }
   }
 }
 
 /// The picture's vergence at the pupil, 1 / (1 / (1/d_p - v) + d_e), and the spot as the projector sees it; both in
 /// one division each, from the inverse of the distance.
-SliceSpot Spotter::spot(const glm::dvec2& look, std::uint32_t face) const {
+SliceSpot Spotter::spot(const glm::dvec2& look, std::uint32_t face, SpotReturn* back) const {
   const glm::dvec2 narrowed = look * eye_.narrowing;
   const double inverse_m = raster_.faces[face].inverse_depth(narrowed);
   const double beyond_lens = 1.0 - eye_.behind_lens_m * inverse_m;  // d_p * inverse_m
@@ -49,6 +51,7 @@ SliceSpot Spotter::spot(const glm::dvec2& look, std::uint32_t face) const {
   SliceSpot spot;
   spot.vergence_d = static_cast<float>(grown > 0.0 ? vergence / grown : -most_vergence_d);
   const glm::dvec3 seen = turn_ * glm::dvec3(narrowed, -1.0) + shift_m_ * inverse_m;
+  if (back) *back = returned(narrowed, face, seen / inverse_m);
   if (const auto pixel = scene_.light.pixel(seen, inverse_m, face)) {
     spot.x_px = static_cast<float>(pixel->x);
     spot.y_px = static_cast<float>(pixel->y);
@@ -57,6 +60,13 @@ SliceSpot Spotter::spot(const glm::dvec2& look, std::uint32_t face) const {
       spot.spread_px = static_cast<float>(px_per_d_ * std::abs(inverse_m / -seen.z - scene_.focus.focus_d));
   }
   return spot;
+}
+
+SpotReturn Spotter::returned(const glm::dvec2& narrowed, std::uint32_t face, const glm::dvec3& projector_m) const {
+  const SeenFace& seen = raster_.faces[face];
+  glm::dvec3 weights(0.0);
+  for (int i = 0; i < 3; ++i) weights[i] = SeenFace::at(seen.edge[i], narrowed);
+  return scene_.paint->at(face, weights / (weights.x + weights.y + weights.z), projector_m);
 }
 
 bool Spotter::at_edge(int row, int column, const std::vector<SliceSpot>& spots) const {
@@ -82,7 +92,8 @@ std::vector<EdgeFaces::Pixel> Spotter::edges(const std::vector<SliceSpot>& spots
   return found;
 }
 
-EdgePixel Spotter::parts_of(const LookGrid& grid, EdgeFaces::Pixel pixel, const EdgeFaces& faces) const {
+EdgePixel Spotter::parts_of(const LookGrid& grid, EdgeFaces::Pixel pixel, const EdgeFaces& faces,
+                            SpotReturn* returns) const {
   constexpr int across = EdgePixel::across;
   EdgePixel parts;
   parts.column = static_cast<std::uint32_t>(pixel.column);
@@ -107,7 +118,7 @@ EdgePixel Spotter::parts_of(const LookGrid& grid, EdgeFaces::Pixel pixel, const 
   }
   for (std::size_t part = 0; part < nearest.size(); ++part) {
     if (nearest[part] != SurfaceRaster::nothing && through_lens(look(part)))
-      parts.spots[part] = spot(look(part), nearest[part]);
+      parts.spots[part] = spot(look(part), nearest[part], returns ? returns + part : nullptr);
   }
   return parts;
 }

@@ -17,17 +17,19 @@ class Spotter {
  public:
   Spotter(const SurfaceRaster& raster, const SliceScene& scene, const SliceEye& eye);
 
-  void row(const LookGrid& grid, int row, SliceSpot* spots) const;
+  /// `returns`: null where nobody asks.
+  void row(const LookGrid& grid, int row, SliceSpot* spots, SpotReturn* returns) const;
 
   /// The pixels whose neighbours see something else: no surface, no light, another depth. `spots`: of the whole grid.
   std::vector<EdgeFaces::Pixel> edges(const std::vector<SliceSpot>& spots) const;
 
   /// What the parts of such a pixel meet.
-  EdgePixel parts_of(const LookGrid& grid, EdgeFaces::Pixel pixel, const EdgeFaces& faces) const;
+  EdgePixel parts_of(const LookGrid& grid, EdgeFaces::Pixel pixel, const EdgeFaces& faces, SpotReturn* returns) const;
 
  private:
   bool through_lens(const glm::dvec2& look) const;
-  SliceSpot spot(const glm::dvec2& look, std::uint32_t face) const;
+  SliceSpot spot(const glm::dvec2& look, std::uint32_t face, SpotReturn* back) const;
+  SpotReturn returned(const glm::dvec2& narrowed, std::uint32_t face, const glm::dvec3& projector_m) const;
   bool at_edge(int row, int column, const std::vector<SliceSpot>& spots) const;
 
   const SurfaceRaster& raster_;

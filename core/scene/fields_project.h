@@ -20,13 +20,29 @@ struct BreathingWords {
 template <>
 struct Codec<Breathing> : WordCodec<Breathing, BreathingWords> {};
 
+struct CompensationModeWords {
+  static constexpr std::array<std::pair<std::string_view, CompensationMode>, 3> words{
+      {{"off", CompensationMode::off}, {"albedo", CompensationMode::albedo}, {"even", CompensationMode::even}}};
+};
+template <>
+struct Codec<CompensationMode> : WordCodec<CompensationMode, CompensationModeWords> {};
+
+template <>
+struct Table<Compensation> {
+  static constexpr auto fields = std::make_tuple(
+      field("mode", at(&Compensation::mode), Presence::always),
+      field("white", at(&Compensation::white), Presence::always, {.low = 0, .high = 1e3, .above_low = true}),
+      field("reference_m", at(&Compensation::reference_m), Presence::optional, length_m));
+};
+
 template <>
 struct Table<Slices> {
   static constexpr auto fields = std::make_tuple(
       field("powers_d", at(&Slices::powers_d), Presence::required, {.low = -1e6, .high = 1e6, .least = 1, .most = 64}),
       field("assignment", at(&Slices::assignment), Presence::always),
       field("breathing", at(&Slices::breathing), Presence::always),
-      field("samples_per_pixel", at(&Slices::samples_per_pixel), Presence::always, {.low = 1, .high = 16}));
+      field("samples_per_pixel", at(&Slices::samples_per_pixel), Presence::always, {.low = 1, .high = 16}),
+      field("compensation", at(&Slices::compensation), Presence::optional));
 
   static bool check(Reading& reading, const Slices& slices);
 };
@@ -57,7 +73,8 @@ struct Table<Project> {
       field("surfaces", at(&Project::surfaces), Presence::always, things),
       field("objects", at(&Project::objects), Presence::always, things),
       field("lights", at(&Project::lights), Presence::optional, things),
-      field("cues", at(&Project::cues), Presence::optional, things));
+      field("cues", at(&Project::cues), Presence::optional, things),
+      field("ambient_lux", at(&Project::ambient_lux), Presence::optional, brightness));
 };
 
 /// What must hold between the parts: names once in their list, slices that exist, powers a lens can mean.

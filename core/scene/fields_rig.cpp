@@ -60,7 +60,24 @@ bool Table<Sweep>::check(Reading& reading, const Sweep& sweep) {
   return reading.fail_at("max_power_d", "project.range", "is not above min_power_d", "raise it, or lower min_power_d");
 }
 
+namespace {
+
+/// From black to white, never falling.
+bool transfer_rises(Reading& reading, const std::vector<double>& transfer) {
+  if (transfer.empty()) return true;
+  if (transfer.size() < 2 || transfer.front() != 0.0 || transfer.back() != 1.0) {
+    return reading.fail_at("transfer", "project.range", "does not run from 0 to 1",
+                           "take the light of code 0 off every value, and divide by that of the last");
+  }
+  if (std::is_sorted(transfer.begin(), transfer.end())) return true;
+  return reading.fail_at("transfer", "project.order", "falls from one code to the next",
+                         "smooth the measurement until it never falls");
+}
+
+}  // namespace
+
 bool Table<Projector>::check(Reading& reading, const Projector& projector) {
+  if (!transfer_rises(reading, projector.transfer)) return false;
   const std::size_t count = projector.distortion.size();
   if (count == 0 || count == 4 || count == 5 || count == 8) return true;
   return reading.fail_at("distortion", "project.count", "has " + std::to_string(count) + " coefficients",

@@ -112,6 +112,8 @@ struct Table<Projector> {
       field("color", at(&Projector::color), Presence::always),
       field("latency_ms", at(&Projector::latency_ms), Presence::always, duration_ms),
       field("gamma", at(&Projector::gamma), Presence::always, {.low = 0, .high = 100, .above_low = true}),
+      field("transfer", at(&Projector::transfer), Presence::optional, {.low = 0, .high = 1, .most = 4096}),
+      field("black_level", at(&Projector::black_level), Presence::optional, {.low = 0, .high = 0.5}),
       field("fx_px", at(&Projector::fx_px), Presence::always, length_px),
       field("fy_px", at(&Projector::fy_px), Presence::always, length_px),
       field("cx_px", at(&Projector::cx_px), Presence::always, offset_px),

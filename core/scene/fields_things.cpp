@@ -70,6 +70,22 @@ void AppearanceCodec::keys(KeyList& list) {
   list.add("image", [](KeyList& below) { list_fields<ImageAppearance>(below); });
 }
 
+bool Codec<Albedo>::read(Reading& reading, const Value& value, Albedo& out, const Rule& rule) {
+  if (value.text()) {
+    out = MaterialAlbedo{};
+    return *value.text() == "material" || not_one_of(reading, *value.text(), {"material"});
+  }
+  if (value.object()) return Codec<FileAlbedo>::read(reading, value, out.emplace<FileAlbedo>(), rule);
+  if (!value.array()) return reading.wrong_type(value, "a colour, {\"file\": ..} or \"material\"");
+  return Codec<glm::dvec3>::read(reading, value, out.emplace<PlainAlbedo>().color, rule);
+}
+
+Value Codec<Albedo>::write(const Albedo& albedo) {
+  if (const auto* plain = std::get_if<PlainAlbedo>(&albedo)) return Codec<glm::dvec3>::write(plain->color);
+  if (const auto* file = std::get_if<FileAlbedo>(&albedo)) return Codec<FileAlbedo>::write(*file);
+  return Value("material");
+}
+
 bool Table<Light>::check(Reading& reading, const Light& light) {
   if (light.kind != LightKind::sun || light.direction != glm::dvec3(0.0)) return true;
   return reading.fail_at("direction", "project.range", "has no length", "say which way the light travels");

@@ -22,6 +22,19 @@ struct AppearanceCodec {
   static void keys(KeyList& list);
 };
 
+template <>
+struct Table<FileAlbedo> {
+  static constexpr auto fields = std::make_tuple(field("file", at(&FileAlbedo::file), Presence::required, a_name));
+};
+
+/// A colour; {"file": ..}; or "material".
+template <>
+struct Codec<Albedo> {
+  static bool read(Reading& reading, const Value& value, Albedo& out, const Rule& rule);
+  static Value write(const Albedo& albedo);
+  static void keys(KeyList& list) { list_fields<FileAlbedo>(list); }
+};
+
 struct DepthModeWords {
   static constexpr std::array<std::pair<std::string_view, DepthMode>, 4> words{{{"placed", DepthMode::placed},
                                                                                 {"fixed", DepthMode::fixed},
@@ -57,6 +70,7 @@ struct Table<Surface> {
       field("rotation_xyzw", at(&Surface::placement, &Placement::pose, &Rigid::rotation), Presence::always),
       field("scale", at(&Surface::scale), Presence::optional, length_m),
       field("illumination", at(&Surface::illumination), Presence::always, fraction),
+      field("albedo", at(&Surface::albedo), Presence::optional, fraction),
       field<PlacementKeysCodec>("keys", at(&Surface::placement), Presence::optional),
       field("track", at(&Surface::placement, &Placement::track), Presence::optional),
       field("group", at(&Surface::group), Presence::optional),

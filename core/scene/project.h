@@ -116,6 +116,10 @@ struct Projector {
   ColorMode color = ColorMode::gray;
   double latency_ms = 0.0;
   double gamma = 1.0;
+  /// Measured, in place of `gamma`: what evenly spaced codes from 0 to the highest give, as shares of the way from
+  /// black to white; from 0 to 1, never falling. Empty: `gamma`.
+  std::vector<double> transfer;
+  double black_level = 0.0;  ///< what code 0 lets through, as a share of the light of full white
   double fx_px = 1400.0;
   double fy_px = 1400.0;
   double cx_px = 512.0;
@@ -133,11 +137,27 @@ struct Projector {
 enum class Assignment { nearest, linear, optimal };
 enum class Breathing { exact, planar, off };
 
+/// What codes make up for (docs/colour.md). off: nothing, light falls as if every surface were white and equally far.
+/// albedo: the surface's own colour and the projector's black level. even: also how light thins with distance and
+/// angle.
+enum class CompensationMode { off, albedo, even };
+
+/// Radiometric compensation: what is wanted is what comes back from the surface.
+struct Compensation {
+  CompensationMode mode = CompensationMode::off;
+  double white = 1.0;  ///< what a wanted 1 comes back as: 1 is full code on a white surface; less leaves room
+  std::optional<double>
+      reference_m;  ///< even: how far from the projector light counts as 1; without: its focus, or 1 m
+  Unknown unknown{};
+  bool operator==(const Compensation&) const = default;
+};
+
 struct Slices {
   std::vector<double> powers_d;
   Assignment assignment = Assignment::linear;
   Breathing breathing = Breathing::exact;
   int samples_per_pixel = 1;  ///< a square number: 1, 4, 9, 16
+  Compensation compensation{};
   Unknown unknown{};
   bool operator==(const Slices&) const = default;
 };
@@ -233,6 +253,23 @@ struct MaterialAppearance {
 };
 using Appearance = std::variant<MaterialAppearance, UnlitAppearance, CheckerAppearance, ImageAppearance>;
 
+/// What share of the light that falls on it a surface scatters back, evenly to all sides, by colour.
+struct PlainAlbedo {
+  glm::dvec3 color{1.0};  ///< linear RGB
+  bool operator==(const PlainAlbedo&) const = default;
+};
+/// A picture of the surface (sRGB) over its mesh's UV.
+struct FileAlbedo {
+  std::string file;
+  Unknown unknown{};
+  bool operator==(const FileAlbedo&) const = default;
+};
+/// What the material of the surface's own file says, lights left aside.
+struct MaterialAlbedo {
+  bool operator==(const MaterialAlbedo&) const = default;
+};
+using Albedo = std::variant<PlainAlbedo, FileAlbedo, MaterialAlbedo>;
+
 enum class DepthMode { placed, fixed, offset, slice };
 
 /// Where the picture of an object comes into focus.
@@ -250,6 +287,7 @@ struct Surface {
   Placement placement;
   double scale = 1.0;
   double illumination = 0.0;  ///< 0..1
+  Albedo albedo{};
   std::string group;
   bool hidden = false;
   bool locked = false;
@@ -305,6 +343,7 @@ struct Project {
   std::vector<Object> objects;
   std::vector<Light> lights;
   std::vector<Cue> cues;
+  double ambient_lux = 0.0;  ///< the room's own light on every surface, all the time
   Unknown unknown{};
   bool operator==(const Project&) const = default;
 };

@@ -1,5 +1,7 @@
 #include "core/stage/finish.h"
 
+#include <utility>
+
 #include "core/scene/sequence.h"
 
 namespace focalstage {
@@ -61,6 +63,20 @@ Finish finish_of(const Appearance& appearance, const Material* material, bool ha
   } else {
     finish = finish_from(material, has_lights);
   }
+  return finish;
+}
+
+Finish finish_of(const Albedo& albedo, const Material* material, std::shared_ptr<const Texture> picture) {
+  Finish finish;
+  if (std::holds_alternative<MaterialAlbedo>(albedo)) {
+    finish = finish_from(material, false);
+    finish.alpha_cutoff = 0.0;  // a real surface has no holes but those of its mesh
+    return finish;
+  }
+  if (const auto* plain = std::get_if<PlainAlbedo>(&albedo)) finish.a = plain->color;
+  if (!picture) return finish;
+  finish.kind = Finish::Kind::textured;
+  finish.texture = std::move(picture);
   return finish;
 }
 

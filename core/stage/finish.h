@@ -22,4 +22,8 @@ Result<std::shared_ptr<const Texture>> picture_of(const Appearance& appearance, 
 /// Whether at `time_s` there is nothing to be drawn of a thing that looks so: its sequence has ended, or not begun.
 bool shows_nothing(const Appearance& appearance, double time_s);
 
+/// What a surface's albedo and its file's material come to: what share of the light on it comes back, whatever light
+/// that is. `picture`: of a file's albedo.
+Finish finish_of(const Albedo& albedo, const Material* material, std::shared_ptr<const Texture> picture);
+
 }  // namespace focalstage

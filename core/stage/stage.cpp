@@ -22,15 +22,16 @@ struct Setting {
   bool has_lights;
 };
 
-/// The look of a thing's parts; without one (a surface) every part is plain.
+/// The look of a thing's parts: of an object its appearance, of a surface its albedo, which is what it is itself.
 struct Look {
   const Appearance* appearance = nullptr;
+  const Albedo* albedo = nullptr;
   std::shared_ptr<const Texture> picture{};
 };
 
 Finish finish_for(const Look& look, const Material* material, const Mesh& mesh, const Setting& setting) {
-  if (look.appearance == nullptr) return {};
-  Finish finish = finish_of(*look.appearance, material, setting.has_lights, look.picture);
+  Finish finish = look.albedo ? finish_of(*look.albedo, material, look.picture)
+                              : finish_of(*look.appearance, material, setting.has_lights, look.picture);
   finish.vertex_colors = finish.vertex_colors && !mesh.colors.empty();
   return finish;
 }
@@ -127,9 +128,22 @@ Result<std::vector<Drawable>> drawables_of(const MeshSource& source, double scal
 /// How an object looks at the moment, `index` being its place in the project's list.
 Result<Look> look_of(const Object& object, std::size_t index, const Setting& setting) {
   auto picture = picture_of(object.appearance, setting.assets, setting.time_s);
-  if (picture) return Look{&object.appearance, *std::move(picture)};
+  if (picture) return Look{&object.appearance, nullptr, *std::move(picture)};
   Fault fault = picture.fault();
   fault.where = "/objects/" + std::to_string(index) + "/appearance" + fault.where;
+  return fault;
+}
+
+/// What a surface is itself; its picture, if it has one, is read as a still one's.
+Result<Look> look_of(const Surface& surface, std::size_t index, const Setting& setting) {
+  const auto* file = std::get_if<FileAlbedo>(&surface.albedo);
+  if (!file) return Look{nullptr, &surface.albedo, {}};
+  ImageAppearance image;
+  image.file = file->file;
+  auto picture = picture_of(image, setting.assets, setting.time_s);
+  if (picture) return Look{nullptr, &surface.albedo, *std::move(picture)};
+  Fault fault = picture.fault();
+  fault.where = "/surfaces/" + std::to_string(index) + "/albedo/file";
   return fault;
 }
 
@@ -174,7 +188,9 @@ Result<Stage> stage(const Project& project, const Assets& assets, double time_s)
   for (std::size_t i = 0; i < project.surfaces.size(); ++i) {
     const Surface& surface = project.surfaces[i];
     if (surface.hidden) continue;
-    Result<StagedSurface> staged = stand_up(surface, i, "surfaces", {}, setting, &StagedSurface::world_from_surface);
+    const Result<Look> look = look_of(surface, i, setting);
+    if (!look) return look.fault();
+    Result<StagedSurface> staged = stand_up(surface, i, "surfaces", *look, setting, &StagedSurface::world_from_surface);
     if (!staged) return staged.fault();
     staged->illumination = surface.illumination;
     stage.surfaces.push_back(*std::move(staged));

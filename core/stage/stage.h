@@ -15,7 +15,8 @@
 
 namespace focalstage {
 
-/// How a drawable looks from any side, resolved from the object's appearance and the file's material.
+/// How a drawable looks from any side, resolved from the object's appearance and the file's material; of a surface,
+/// what share of the light on it comes back.
 struct Finish {
   enum class Kind { flat, checker, textured };
 

@@ -20,10 +20,11 @@ struct Options {
   bool sensitivity = false;
 };
 
-/// The report, and what the objects that it counts are called.
+/// The report, and what the things that it counts are called.
 struct CheckedNames {
   CheckReport report;
   std::vector<std::string> objects;
+  std::vector<std::string> surfaces;
   std::vector<ErrorEffect> effects;
 };
 
@@ -38,7 +39,8 @@ Result<CheckedNames> with_effects(const Options& options, const Source& source, 
 
 Result<CheckedNames> named(const Source& source, Result<CheckReport> report) {
   if (!report) return report.fault();
-  CheckedNames all{*std::move(report), {}, {}};
+  CheckedNames all{*std::move(report), {}, {}, {}};
+  for (const Surface& surface : source.project.surfaces) all.surfaces.push_back(surface.name);
   for (const Object& object : source.project.objects) all.objects.push_back(object.name);
   return all;
 }
@@ -85,6 +87,36 @@ std::string conflicts_text(const CheckedNames& all) {
          table_text({{"object"}, {"mean", true}, {"worst", true}, {"% beyond 0.5", true}}, rows);
 }
 
+/// JSON has no infinity: where nothing is black, there is no ratio.
+Value contrasts_value(const CheckedNames& all) {
+  Value::Array contrasts;
+  for (const SurfaceContrast& one : all.report.contrasts) {
+    Value value;
+    value.set("surface", all.surfaces[one.index]);
+    value.set("exposures", one.exposures);
+    value.set("white", one.white);
+    value.set("leak", one.leak);
+    value.set("ambient", one.knows_ambient ? Value(one.ambient) : Value());
+    value.set("contrast", one.black() > 0.0 && one.knows_ambient ? Value(one.ratio()) : Value());
+    if (one.white_cd_m2 > 0.0) value.set("white_cd_m2", one.white_cd_m2);
+    contrasts.push_back(std::move(value));
+  }
+  return contrasts;
+}
+
+std::string contrasts_text(const CheckedNames& all) {
+  if (all.report.contrasts.empty()) return "";
+  std::vector<std::vector<std::string>> rows;
+  for (const SurfaceContrast& one : all.report.contrasts) {
+    const bool known = one.knows_ambient;
+    rows.push_back({all.surfaces[one.index], std::to_string(one.exposures), fixed_text(100.0 * one.leak, 2),
+                    known ? fixed_text(100.0 * one.ambient, 2) : "?",
+                    known && one.black() > 0.0 ? short_text(one.ratio(), 3) + " : 1" : "?"});
+  }
+  return "\nWhite against black, to the eye that has it worse (leak and room: % of full white in one exposure)\n" +
+         table_text({{"surface"}, {"exposures", true}, {"leak", true}, {"room", true}, {"contrast", true}}, rows);
+}
+
 Value effects_value(const std::vector<ErrorEffect>& effects) {
   Value::Array list;
   for (const ErrorEffect& effect : effects) {
@@ -123,11 +155,14 @@ ExitStatus run(const Options& options) {
   if (options.json) {
     Value object = findings_value(all->report.findings);
     object.set("conflict", conflicts_value(*all));
+    if (!all->report.contrasts.empty()) object.set("contrast", contrasts_value(*all));
     if (options.sensitivity) object.set("sensitivity", effects_value(all->effects));
     print_json(object);
   } else {
-    std::fputs((findings_text(all->report.findings) + conflicts_text(*all) + effects_text(all->effects)).c_str(),
-               stdout);
+    std::fputs(
+        (findings_text(all->report.findings) + conflicts_text(*all) + contrasts_text(*all) + effects_text(all->effects))
+            .c_str(),
+        stdout);
   }
   return status_of(all->report.findings);
 }

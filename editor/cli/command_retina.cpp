@@ -21,7 +21,7 @@ ExitStatus usage(const Fault& fault) {
 
 Status write_pictures(const RetinaOptions& options, const RetinaInput& input, const RetinaView& view,
                       const RetinaReport& made) {
-  const int channels = view.chromatic ? 3 : input.channels;
+  const int channels = channels_of(input, view, made.picture);
   Status written =
       write_png16(options.output, view.width_px, view.height_px, channels, levels_of(made.picture, channels));
   if (!written || options.conflict.empty()) return written;

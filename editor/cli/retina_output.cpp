@@ -85,6 +85,14 @@ std::string retina_text(const RetinaRun& run, const RetinaView& view, const Reti
                            rows);
 }
 
+int channels_of(const RetinaInput& input, const RetinaView& view, const RetinaImage& image) {
+  if (view.chromatic || input.channels == 3) return 3;
+  for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3) {
+    if (image.rgb[i] != image.rgb[i + 1] || image.rgb[i] != image.rgb[i + 2]) return 3;
+  }
+  return 1;
+}
+
 std::vector<std::uint16_t> levels_of(const RetinaImage& image, int channels) {
   std::vector<std::uint16_t> levels;
   for (std::size_t i = 0; i < image.rgb.size(); i += channels == 3 ? 1 : 3) {

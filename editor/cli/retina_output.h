@@ -26,7 +26,11 @@ Value retina_value(const RetinaRun& run, const RetinaView& view, const RetinaInp
 std::string retina_text(const RetinaRun& run, const RetinaView& view, const RetinaInput& input,
                         const RetinaReport& report);
 
-/// Linear light for a 16-bit picture, 65535 = full code; one channel of a gray show.
+/// 3 where red, green and blue may differ: in a show of three channels, an eye with colours of its own, or a picture in
+/// which they do differ (painted surfaces).
+int channels_of(const RetinaInput& input, const RetinaView& view, const RetinaImage& image);
+
+/// Linear light for a 16-bit picture, 65535 = full code; one channel of a gray picture.
 std::vector<std::uint16_t> levels_of(const RetinaImage& image, int channels);
 
 /// 8-bit RGB by `conflict_colour`; black where nothing is lit.

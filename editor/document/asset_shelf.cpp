@@ -26,6 +26,10 @@ void each_reference(const Project& project, Use&& use) {
           "/objects/" + std::to_string(i) + "/appearance/image/file");
     }
   }
+  for (std::size_t i = 0; i < project.surfaces.size(); ++i) {
+    if (const auto* paint = std::get_if<FileAlbedo>(&project.surfaces[i].albedo))
+      use(AssetReference{paint->file, true, 0, 0}, "/surfaces/" + std::to_string(i) + "/albedo/file");
+  }
 }
 
 Project project_of(const AssetReference& reference) {

@@ -54,6 +54,7 @@ Result<CheckReport> checked(const Source& source, const ScheduleResult& schedule
                             const std::stop_token& stop) {
   CheckReport report;
   report.conflicts = measured.conflicts;
+  report.contrasts = contrasts_of(source.project, schedule.schedule, measured.lit);
   auto findings = findings_of(source, schedule, std::move(measured), frames, stop);
   if (!findings) return findings.fault();
   report.findings = *std::move(findings);
@@ -85,7 +86,10 @@ Result<Measured> write_frames(const CompileJob& job, FrameRange range, FrameMake
   for (int k = 0; k < report.frames; ++k) {
     if (stop.stop_requested()) return cancelled(job);
     if (Status stood = maker.stand_up(range.begin + k); !stood) return stood.fault();
-    if (k == 0) measured.meshes = mesh_states(maker.project(), maker.staged());
+    if (k == 0) {
+      measured.meshes = mesh_states(maker.project(), maker.staged());
+      measured.lit = surfaces_in_light(maker.project(), maker.staged());
+    }
     if (writer.has_frame(k)) {
       ++report.resumed;
     } else {

@@ -40,7 +40,8 @@ Result<CompileReport> compile_show(const Source& source, const CompileJob& job, 
 
 struct CheckReport {
   std::vector<Finding> findings;
-  std::vector<ObjectConflict> conflicts;  ///< of objects that are lit, in the project's order
+  std::vector<ObjectConflict> conflicts;   ///< of objects that are lit, in the project's order
+  std::vector<SurfaceContrast> contrasts;  ///< of surfaces that are lit, where black or the room's light is not nothing
 };
 
 /// The findings of a project without writing anything: every frame is compiled and measured, some are looked at.

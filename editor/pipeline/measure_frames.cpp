@@ -28,7 +28,10 @@ Result<Measured> measure_frames(FrameMaker& maker, const FramesToMeasure& what, 
       return Fault{"compile.cancelled", maker.project().name, "stopped before the end", ""};
     }
     if (Status stood = maker.stand_up(what.frames.begin + k); !stood) return stood.fault();
-    if (k == 0) measured.meshes = mesh_states(maker.project(), maker.staged());
+    if (k == 0) {
+      measured.meshes = mesh_states(maker.project(), maker.staged());
+      measured.lit = surfaces_in_light(maker.project(), maker.staged());
+    }
     const bool looked_at = looked_at_for_conflict(k, count);
     Status seen;
     if (what.show) {

@@ -41,11 +41,11 @@ Result<SeenShow> SeenShow::of(const ShowReader& show, const std::string& name, i
   seen.images_ = *std::move(images);
   seen.schedule_ = header.schedule;
   seen.glasses_ = glasses ? *glasses : worn_glasses(source->project.glasses);
-  seen.flux_ = flux_of(source->project);
+  seen.room_ = room_light_of(source->project);
   seen.eye_ = eye;
   return seen;
 }
 
-RetinaInput SeenShow::input() const { return seen_frame(stage_, settings_, images_, schedule_, glasses_, eye_); }
+RetinaInput SeenShow::input() const { return seen_frame(stage_, settings_, images_, schedule_, glasses_, eye_, room_); }
 
 }  // namespace focalstage

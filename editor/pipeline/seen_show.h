@@ -25,7 +25,7 @@ class SeenShow {
   /// Valid while this stays where it is.
   RetinaInput input() const;
 
-  const ProjectorFlux& flux() const { return flux_; }
+  const ProjectorFlux& flux() const { return room_.flux; }
 
  private:
   Stage stage_;
@@ -33,7 +33,7 @@ class SeenShow {
   FrameImages images_;
   Schedule schedule_;
   WornGlasses glasses_;
-  ProjectorFlux flux_;
+  RoomLight room_;
   Side eye_ = Side::left;
 };
 

@@ -48,8 +48,9 @@ RetinaInput retina_input(const CompiledSlices& compiled, const Schedule& schedul
     const int only = image_at(schedule, side, *wish.sweep_time_s);
     std::erase_if(shown.slots, [&](const Slot& slot) { return slot.image != only || slot.eye != side; });
   }
-  return seen_in(wish.rig.get(), seen_frame(*compiled.stage, compiled.settings, compiled.images, shown,
-                                            worn_glasses(compiled.project->glasses), side));
+  return seen_in(wish.rig.get(),
+                 seen_frame(*compiled.stage, compiled.settings, compiled.images, shown,
+                            worn_glasses(compiled.project->glasses), side, room_light_of(*compiled.project)));
 }
 
 RetinaView retina_view(const EyeWish& wish, Side side, std::size_t panels) {

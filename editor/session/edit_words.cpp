@@ -21,12 +21,19 @@ struct Word {
 
 /// Keys that a person calls otherwise than the file does.
 constexpr std::array said_otherwise{
-    Word{"min_power_d", "lowest power"}, Word{"max_power_d", "highest power"},
-    Word{"powers_d", "powers"},          Word{"illumination", "light"},
-    Word{"rotation_xyzw", "rotation"},   Word{"depth/vergence_d", "image depth"},
-    Word{"depth/mode", "depth mode"},    Word{"frames_per_second", "images per second"},
-    Word{"bits", "bit depth"},           Word{"interpupillary_mm", "interpupillary distance"},
-    Word{"fx_px", "focal length in x"},  Word{"fy_px", "focal length in y"},
+    Word{"min_power_d", "lowest power"},
+    Word{"max_power_d", "highest power"},
+    Word{"powers_d", "powers"},
+    Word{"illumination", "light"},
+    Word{"albedo", "paint"},
+    Word{"rotation_xyzw", "rotation"},
+    Word{"depth/vergence_d", "image depth"},
+    Word{"depth/mode", "depth mode"},
+    Word{"frames_per_second", "images per second"},
+    Word{"bits", "bit depth"},
+    Word{"interpupillary_mm", "interpupillary distance"},
+    Word{"fx_px", "focal length in x"},
+    Word{"fy_px", "focal length in y"},
 };
 
 constexpr std::array units{

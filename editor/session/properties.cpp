@@ -42,6 +42,7 @@ constexpr std::array<KindOfThing, 10> kinds{{
      [](const Project& p, const std::string&) {
        Value item;
        item.set("name", p.name);
+       item.set("ambient_lux", p.ambient_lux);
        return item;
      }},
 }};

@@ -239,6 +239,34 @@ void add_appearance_rows(PropertyRows& rows) {
       "A picture from a file over the mesh; the first of numbered ones brings all of them.";
 }
 
+// Paint ---------------------------------------------------------------------------------------------------------------
+
+std::string paint_of(const Value& albedo) {
+  return albedo.text() ? "material" : albedo.object() ? "picture" : "colour";
+}
+
+std::vector<Edit> set_paint(const PropertyScope& scope, const Thing& thing, const Property&, const Value& value) {
+  const Value item = item_of(scope.project, thing);
+  const Value* found = item.find("albedo");
+  if (!value.text() || paint_of(found ? *found : Value()) == *value.text()) return {};
+  if (*value.text() == "material") return {set_edit(thing, "albedo", Value("material"))};
+  if (*value.text() == "colour") return {set_edit(thing, "albedo", white())};
+  return {set_edit(thing, "albedo", Value(Value::Object{{"file", "assets/" + thing.name + ".png"}}))};
+}
+
+void add_paint_rows(PropertyRows& rows) {
+  const std::string paint = paint_of(rows.at("albedo"));
+  Property& kind = rows.choice(
+      "paint", "albedo",
+      {{Value("colour"), "one colour"}, {Value("picture"), "a picture"}, {Value("material"), "its own material"}});
+  kind.value = Value(paint);
+  kind.edits = set_paint;
+  kind.help = "What share of the light on it comes back. The slices can make up for it.";
+  if (paint == "colour") rows.colour("paint colour", "albedo", white());
+  if (paint == "picture")
+    rows.text("picture", "albedo/file").help = "PNG or JPEG beside the project, over the mesh's UV.";
+}
+
 }  // namespace
 
 void add_surface_rows(PropertyRows& rows) {
@@ -247,6 +275,7 @@ void add_surface_rows(PropertyRows& rows) {
   rows.group("Light");
   rows.number<Surface>("illumination", "illumination", {"", 2, 0.005}).help =
       "How brightly the surface itself is lit while the lens is at zero: 0 not, 1 fully.";
+  add_paint_rows(rows);
   add_mesh_rows(rows);
   add_process_rows(rows);
   add_movement_rows(rows);

@@ -32,6 +32,14 @@ void add_model_row(PropertyRows& rows) {
       "What it can do at each bit depth, and who is the clock. More: files in models/ beside the project.";
 }
 
+void add_curve_row(PropertyRows& rows) {
+  const Value::Array* measured = rows.at("transfer").array();
+  const bool any = measured && !measured->empty();
+  Property& row = rows.shown("curve", any ? "measured, " + std::to_string(measured->size()) + " values" : "by gamma");
+  row.key = "transfer";
+  row.help = "What codes give; a measured curve stands in the project's file in place of gamma.";
+}
+
 void add_picture_rows(PropertyRows& rows) {
   rows.group("Picture");
   add_model_row(rows);
@@ -45,6 +53,9 @@ void add_picture_rows(PropertyRows& rows) {
   bits.other = std::to_string(1 << std::clamp(static_cast<int>(number_at(rows, "bits", 8)), 0, 16)) + " levels";
   rows.choice("colour", "color", {{Value("gray"), "gray"}, {Value("rgb"), "red, green, blue"}});
   rows.number<Projector>("gamma", "gamma", {"", 2, 0.01}).help = "A code's light is its share to this power.";
+  add_curve_row(rows);
+  rows.number<Projector>("black level", "black_level", {"", 4, 0.0001}).help =
+      "What code 0 lets through, as a share of full white.";
   Property& lumens = rows.number<Projector>("lumens", "lumens", {"lm", 0, 10.0});
   lumens.fresh = Value(1000.0);
 }

@@ -115,6 +115,20 @@ std::string sweeps_text(double sweep_hz, double rate_hz) {
   return whole == 1.0 ? "every sweep" : "every " + fixed_text(whole, 0) + " sweeps";
 }
 
+void add_compensation_rows(PropertyRows& rows) {
+  rows.group("Surface colour");
+  Property& mode = rows.choice(
+      "make up for", "compensation/mode",
+      {{Value("off"), "nothing"}, {Value("albedo"), "paint and black"}, {Value("even"), "paint, black and distance"}});
+  if (mode.value.is_null()) mode.value = Value("off");  // a project does not say it
+  mode.help = "Codes such that the light wanted is what comes back from the surfaces.";
+  rows.number<Compensation>("white", "compensation/white", {"", 3, 0.002}).help =
+      "What a wanted 1 comes back as; less leaves room for dark paint.";
+  Property& reference = rows.number<Compensation>("reference", "compensation/reference_m", {"m", 2, 0.01});
+  reference.fresh = Value(1.0);
+  reference.help = "How far from the projector light counts as 1. Not set: its focus, or 1 m.";
+}
+
 }  // namespace
 
 void add_viewer_rows(PropertyRows& rows) {
@@ -149,6 +163,7 @@ void add_slices_rows(PropertyRows& rows) {
   rows.choice("samples", "samples_per_pixel",
               {{Value(1.0), "1 per pixel"}, {Value(4.0), "4"}, {Value(9.0), "9"}, {Value(16.0), "16"}})
       .help = "More make edges smoother and compiling slower.";
+  add_compensation_rows(rows);
 }
 
 void add_frames_rows(PropertyRows& rows) {
@@ -166,6 +181,8 @@ void add_project_rows(PropertyRows& rows) {
   const Project& project = rows.scope().project;
   rows.group("Project");
   rows.text("name", "name");
+  rows.number<Project>("light of the room", "ambient_lux", {"lx", 1, 0.1}).help =
+      "On every surface, all the time; previews show it where the projector's lumens are known.";
   rows.group("Holds");
   const auto count = [&](const char* label, std::size_t number) { rows.shown(label, grouped_text(number)); };
   count("surfaces", project.surfaces.size());

@@ -29,7 +29,11 @@ Project without_missing(const Project& project, const Assets& assets, double tim
     const auto* file = std::get_if<FileMesh>(&mesh.shape);
     return !file || assets.models.contains(file->file);
   };
-  for (Surface& surface : shown.surfaces) surface.hidden = surface.hidden || !is_there(surface.mesh);
+  for (Surface& surface : shown.surfaces) {
+    surface.hidden = surface.hidden || !is_there(surface.mesh);
+    const auto* paint = std::get_if<FileAlbedo>(&surface.albedo);
+    if (paint && !assets.pictures.contains(paint->file)) surface.albedo = PlainAlbedo{};
+  }
   const auto has_pictures = [&](const Appearance& appearance) {
     const auto* image = std::get_if<ImageAppearance>(&appearance);
     const std::optional<int> index = image ? picture_at(*image, time_s) : std::nullopt;

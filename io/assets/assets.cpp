@@ -53,13 +53,22 @@ std::vector<Reference> references_of(const Project& project) {
   return references;
 }
 
-/// Calls `use(image, pointer)` for every object that looks like a picture, and stops at a fault.
+/// Calls `use(image, pointer)` for every object that looks like a picture, and every surface whose paint is one, and
+/// stops at a fault.
 template <class Use>
 Status each_image(const Project& project, Use&& use) {
   for (std::size_t i = 0; i < project.objects.size(); ++i) {
     const auto* image = std::get_if<ImageAppearance>(&project.objects[i].appearance);
     if (image == nullptr) continue;
     Status used = use(*image, "/objects/" + std::to_string(i) + "/appearance/image/file");
+    if (!used) return used;
+  }
+  for (std::size_t i = 0; i < project.surfaces.size(); ++i) {
+    const auto* paint = std::get_if<FileAlbedo>(&project.surfaces[i].albedo);
+    if (paint == nullptr) continue;
+    ImageAppearance image;
+    image.file = paint->file;
+    Status used = use(image, "/surfaces/" + std::to_string(i) + "/albedo/file");
     if (!used) return used;
   }
   return {};

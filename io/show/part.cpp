@@ -26,7 +26,7 @@ Result<PartLog> PartLog::open(const std::filesystem::path& folder, const PartKey
   log.path_ = folder / "frames.log";
   log.key_ = key;
   log.records_.resize(key.frames);
-  log.measures_.assign(key.frames, spread({}, key.objects));
+  log.measures_.assign(key.frames, spread({}, key.objects, key.surfaces));
 
   std::error_code error;
   std::filesystem::create_directory(folder, error);
@@ -92,7 +92,7 @@ Status PartLog::append(std::size_t frame, const FrameMeasure& measure, const Pac
   const std::vector<std::byte> bytes = record_bytes(frame, measure, packed, key_);
   if (!file_.write_at(end_, bytes)) return failed(errno);
   records_[frame] = {end_, bytes.size()};
-  measures_[frame] = spread(measure, key_.objects);
+  measures_[frame] = spread(measure, key_.objects, key_.surfaces);
   end_ += bytes.size();
   if (std::chrono::steady_clock::now() - synced_ < sync_every) return {};
   return sync();

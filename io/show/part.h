@@ -13,7 +13,7 @@
 
 namespace focalstage {
 
-inline constexpr std::uint32_t part_version = 2;
+inline constexpr std::uint32_t part_version = 3;
 
 /// Whose frames a part holds, and how many of what.
 struct PartKey {
@@ -23,6 +23,7 @@ struct PartKey {
   std::size_t chunks_per_frame = 0;
   std::size_t chunk_bytes = 0;
   std::size_t objects = 0;
+  std::size_t surfaces = 0;
 };
 
 /// The append-only log of finished frames in `SHOW.h5.part/`. One record per frame:

@@ -66,10 +66,19 @@ void each_number(Measure& measure, Pass&& pass) {
     pass(object.worst_below_d);
     pass(object.worst_above_d);
   }
+  for (auto& surface : measure.surfaces) {
+    pass(surface.lit_pixels);
+    pass(surface.too_bright);
+    pass(surface.too_dark);
+    for (auto& count : surface.bright_in) pass(count);
+    for (auto& count : surface.dark_in) pass(count);
+    pass(surface.most);
+    pass(surface.least);
+  }
 }
 
 std::size_t fixed_bytes(const PartKey& key) {
-  return (5 + 2 * 6) * 8 + key.objects * 5 * 8 + key.chunks_per_frame * sizeof(std::uint32_t);
+  return (5 + 2 * 6) * 8 + key.objects * 5 * 8 + key.surfaces * 11 * 8 + key.chunks_per_frame * sizeof(std::uint32_t);
 }
 
 std::size_t largest_body(const PartKey& key) {
@@ -79,12 +88,16 @@ std::size_t largest_body(const PartKey& key) {
 
 }  // namespace
 
-FrameMeasure spread(const FrameMeasure& measure, std::size_t objects) {
+FrameMeasure spread(const FrameMeasure& measure, std::size_t objects, std::size_t surfaces) {
   FrameMeasure out = measure;
   out.objects.assign(objects, {});
   for (std::size_t i = 0; i < objects; ++i) out.objects[i].index = i;
   for (const ObjectMeasure& object : measure.objects)
     if (object.index < objects) out.objects[object.index] = object;
+  out.surfaces.assign(surfaces, {});
+  for (std::size_t i = 0; i < surfaces; ++i) out.surfaces[i].index = i;
+  for (const SurfaceAsked& surface : measure.surfaces)
+    if (surface.index < surfaces) out.surfaces[surface.index] = surface;
   return out;
 }
 
@@ -103,7 +116,7 @@ std::vector<std::byte> record_bytes(std::size_t frame, const FrameMeasure& measu
   Out out;
   out.bytes.resize(sizeof(RecordHead));
   out.bytes.reserve(sizeof(RecordHead) + fixed_bytes(key) + packed.data.size());
-  const FrameMeasure whole = spread(measure, key.objects);
+  const FrameMeasure whole = spread(measure, key.objects, key.surfaces);
   each_number(whole, out);
   out.raw(packed.sizes.data(), packed.sizes.size() * sizeof(std::uint32_t));
   out.raw(packed.data.data(), packed.data.size());
@@ -129,7 +142,7 @@ std::optional<RecordHead> head_from(std::span<const std::byte> bytes, const Part
 std::optional<RecordBody> body_from(std::span<const std::byte> bytes, const RecordHead& head, const PartKey& key) {
   if (bytes.size() != head.body_bytes || crc32_of(bytes) != head.body_crc) return {};
   RecordBody body;
-  body.measure = spread({}, key.objects);
+  body.measure = spread({}, key.objects, key.surfaces);
   In in(bytes);
   each_number(body.measure, in);
   body.packed.sizes.resize(key.chunks_per_frame);

@@ -39,7 +39,7 @@ struct RecordBody {
 /// The body of `head`, or nothing where its sum or its sizes are wrong.
 std::optional<RecordBody> body_from(std::span<const std::byte> bytes, const RecordHead& head, const PartKey& key);
 
-/// `measure` with one entry per object of the project, in its order.
-FrameMeasure spread(const FrameMeasure& measure, std::size_t objects);
+/// `measure` with one entry per object of the project, in its order, and one per surface.
+FrameMeasure spread(const FrameMeasure& measure, std::size_t objects, std::size_t surfaces);
 
 }  // namespace focalstage

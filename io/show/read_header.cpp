@@ -180,6 +180,38 @@ void read_optimal(Hdf5In& in, std::vector<FrameMeasure>& measures) {
   }
 }
 
+/// Shows without compensation have none of it.
+void read_asked(Hdf5In& in, std::size_t surfaces, std::vector<FrameMeasure>& measures) {
+  const std::vector<std::string> names = in.names("/measure");
+  if (std::find(names.begin(), names.end(), "surface_lit") == names.end()) return;
+  const Hdf5In::Shape shape{measures.size(), surfaces}, by_channel{measures.size(), surfaces, 3};
+  const auto lit = in.numbers<std::uint64_t>("/measure/surface_lit", shape);
+  const auto too_bright = in.numbers<std::uint64_t>("/measure/surface_too_bright", shape);
+  const auto too_dark = in.numbers<std::uint64_t>("/measure/surface_too_dark", shape);
+  const auto bright = in.numbers<std::uint64_t>("/measure/surface_bright_in", by_channel);
+  const auto dark = in.numbers<std::uint64_t>("/measure/surface_dark_in", by_channel);
+  const auto most = in.numbers<double>("/measure/surface_most", shape);
+  const auto least = in.numbers<double>("/measure/surface_least", shape);
+  for (const auto* numbers : {&most, &least}) {
+    const bool finite = std::all_of(numbers->begin(), numbers->end(), [](double d) { return std::isfinite(d); });
+    if (!finite) in.refuse("/measure", "it is not finite");
+  }
+  if (!in.ok()) return;
+  for (std::size_t k = 0; k < measures.size(); ++k) {
+    for (std::size_t i = 0; i < surfaces; ++i) {
+      const std::size_t at = k * surfaces + i;
+      measures[k].surfaces.push_back({i,
+                                      lit[at],
+                                      too_bright[at],
+                                      too_dark[at],
+                                      {bright[3 * at], bright[3 * at + 1], bright[3 * at + 2]},
+                                      {dark[3 * at], dark[3 * at + 1], dark[3 * at + 2]},
+                                      most[at],
+                                      least[at]});
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<FrameMeasure> read_measures(Hdf5In& in, const ShowHeader& header) {
@@ -202,7 +234,7 @@ std::vector<FrameMeasure> read_measures(Hdf5In& in, const ShowHeader& header) {
   std::vector<FrameMeasure> measures;
   if (!in.ok()) return measures;
   for (std::size_t k = 0; k < frames; ++k) {
-    FrameMeasure measure{lit[k], clipped[k], surface[k], defocused[k], worst_defocus_d[k], {}, {}};
+    FrameMeasure measure{lit[k], clipped[k], surface[k], defocused[k], worst_defocus_d[k], {}, {}, {}};
     for (std::size_t i = 0; i < objects; ++i) {
       const std::size_t at = k * objects + i;
       measure.objects.push_back({i, samples[at], beyond[at], worst_beyond_d[at], worst_below_d[at], worst_above_d[at]});
@@ -210,6 +242,7 @@ std::vector<FrameMeasure> read_measures(Hdf5In& in, const ShowHeader& header) {
     measures.push_back(std::move(measure));
   }
   read_optimal(in, measures);
+  read_asked(in, header.poses.at(0).surfaces.size(), measures);
   return measures;
 }
 

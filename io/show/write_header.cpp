@@ -136,6 +136,32 @@ void write_optimal(Hdf5Out& out, const std::vector<FrameMeasure>& measures) {
   sums("/measure/optimal_error", [](auto& eye) { return eye.optimal_error; });
 }
 
+bool is_asked(const SurfaceAsked& surface) { return surface.lit_pixels > 0; }
+
+/// With compensation alone; other shows have no such datasets.
+void write_asked(Hdf5Out& out, const std::vector<FrameMeasure>& measures) {
+  std::vector<SurfaceAsked> rows;
+  for (const FrameMeasure& measure : measures)
+    rows.insert(rows.end(), measure.surfaces.begin(), measure.surfaces.end());
+  if (std::none_of(rows.begin(), rows.end(), is_asked)) return;
+  const std::size_t frames = measures.size(), surfaces = measures[0].surfaces.size();
+  const auto counts = [&](const char* name, auto get) {
+    out.dataset(name, {frames, surfaces}, column<std::uint64_t>(rows, get));
+  };
+  counts("/measure/surface_lit", [](auto& s) { return s.lit_pixels; });
+  counts("/measure/surface_too_bright", [](auto& s) { return s.too_bright; });
+  counts("/measure/surface_too_dark", [](auto& s) { return s.too_dark; });
+  std::vector<std::uint64_t> bright, dark;
+  for (const SurfaceAsked& row : rows) {
+    bright.insert(bright.end(), row.bright_in.begin(), row.bright_in.end());
+    dark.insert(dark.end(), row.dark_in.begin(), row.dark_in.end());
+  }
+  out.dataset("/measure/surface_bright_in", {frames, surfaces, 3}, bright);
+  out.dataset("/measure/surface_dark_in", {frames, surfaces, 3}, dark);
+  out.dataset("/measure/surface_most", {frames, surfaces}, column<double>(rows, [](auto& s) { return s.most; }));
+  out.dataset("/measure/surface_least", {frames, surfaces}, column<double>(rows, [](auto& s) { return s.least; }));
+}
+
 void write_measures(Hdf5Out& out, const std::vector<FrameMeasure>& measures) {
   const std::size_t frames = measures.size();
   const std::size_t objects = measures[0].objects.size();
@@ -160,6 +186,7 @@ void write_measures(Hdf5Out& out, const std::vector<FrameMeasure>& measures) {
   out.dataset("/measure/object_worst_above_d", {frames, objects},
               column<double>(rows, [](auto& o) { return o.worst_above_d; }));
   write_optimal(out, measures);
+  write_asked(out, measures);
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ namespace {
 
 PartKey part_key(const ShowHeader& header, const ChunkGrid& grid) {
   return {sha256_of(header.project_text),          fingerprint_of(header), static_cast<std::size_t>(header.frames),
-          header.images.size() * grid.per_image(), grid.bytes(),           header.poses[0].objects.size()};
+          header.images.size() * grid.per_image(), grid.bytes(),           header.poses[0].objects.size(),
+          header.poses[0].surfaces.size()};
 }
 
 Status check_asset_hashes(const ShowHeader& header, const std::string& where) {

@@ -40,12 +40,14 @@ Opened linear(Opened sample) {
 }
 
 /// The variant whose edges are looked for: all objects carry a fine checker, nothing else is lit, every pixel is one
-/// sample.
+/// sample, codes make up for nothing.
 Project checkered(Project project) {
   for (Object& object : project.objects)
     object.appearance = CheckerAppearance{{64, 64}, glm::dvec3(1.0), glm::dvec3(0.3)};
   for (Surface& surface : project.surfaces) surface.illumination = 0.0;
   for (Projector& projector : project.projectors) projector.color = ColorMode::gray;
+  project.slices.compensation = {};
+  for (Projector& projector : project.projectors) projector.transfer.clear();
   project.slices.samples_per_pixel = 1;
   return project;
 }

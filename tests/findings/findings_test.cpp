@@ -45,6 +45,7 @@ std::vector<Finding> findings_of(const Project& project) {
     const Result<Stage> staged = stage(project, loaded->assets, frame / project.frames.rate_hz);
     REQUIRE(staged.ok());
     if (frame == 0) measured.meshes = mesh_states(project, *staged);
+    if (frame == 0) measured.lit = surfaces_in_light(project, *staged);
     Result<CompiledFrame> compiled = compiler.frame(*staged);
     REQUIRE(compiled.ok());
     measured.frames.push_back(compiled->measure);
@@ -115,6 +116,18 @@ TEST_CASE("view.outside-lens") { check_code("view.outside-lens", Severity::warni
 TEST_CASE("view.unseen") { check_code("view.unseen", Severity::warning, false); }
 TEST_CASE("view.conflict") { check_code("view.conflict", Severity::warning, true); }
 TEST_CASE("light.clipped") { check_code("light.clipped", Severity::warning, false); }
+TEST_CASE("light.clipped, by paint: a white that it can send back clears it") {
+  const Project project = load("light.clipped-by-paint");
+  const std::vector<Finding> findings = findings_of(project);
+  REQUIRE(codes(findings) == std::set<std::string>{"light.clipped"});
+  REQUIRE(findings.size() == 1);
+  CHECK(findings[0].where == "/surfaces/0");
+  CHECK(findings[0].amount->value > 0.9);  // all of the card but its rim
+  check_cleared(project, findings, findings[0]);
+}
+TEST_CASE("light.below-black") { check_code("light.below-black", Severity::warning, false); }
+TEST_CASE("light.contrast") { check_code("light.contrast", Severity::warning, false); }
+TEST_CASE("light.ambient-unknown") { check_code("light.ambient-unknown", Severity::info, false, false); }
 TEST_CASE("projector.defocus") { check_code("projector.defocus", Severity::warning, false); }
 
 TEST_CASE("projector.unknown-model") { check_code("projector.unknown-model", Severity::warning, true, false); }
@@ -160,6 +173,10 @@ TEST_CASE("every project here belongs to a test, and every code of the design to
                                        "view.off-surface",
                                        "view.outside-lens",
                                        "light.clipped",
+                                       "light.clipped-by-paint",
+                                       "light.below-black",
+                                       "light.contrast",
+                                       "light.ambient-unknown",
                                        "projector.defocus",
                                        "safety.flicker",
                                        "rig.differs",

@@ -6,6 +6,7 @@ import importlib.util
 import math
 import pathlib
 from fractions import Fraction
+import zlib
 
 import numpy
 
@@ -113,6 +114,44 @@ def figures(file):
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+def luminance(rgb):
+    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
+
+
+@functools.lru_cache
+def picture(file):
+    """A PNG of a sample, 8-bit RGB without filters, as linear light: rows from the top."""
+    path = next((pathlib.Path(__file__).parents[2] / "projects").glob(f"*/{file}"))
+    data, at, packed = path.read_bytes(), 8, b""
+    while at < len(data):
+        size, kind = int.from_bytes(data[at:at + 4], "big"), data[at + 4:at + 8]
+        body = data[at + 8:at + 8 + size]
+        if kind == b"IHDR":
+            width, height = int.from_bytes(body[:4], "big"), int.from_bytes(body[4:8], "big")
+            assert body[8:] == bytes([8, 2, 0, 0, 0])
+        packed += body if kind == b"IDAT" else b""
+        at += size + 12
+    rows = numpy.frombuffer(zlib.decompress(packed), numpy.uint8).reshape(height, 1 + 3 * width)
+    assert not rows[:, 0].any()
+    srgb = rows[:, 1:].reshape(height, width, 3) / 255.0
+    return numpy.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+
+
+def texel_at(file, uv):
+    """Bilinear between the centres of texels, v from below."""
+    texels = picture(file)
+    height, width = texels.shape[:2]
+    x, y = uv[0] * width - 0.5, (1 - uv[1]) * height - 0.5
+    left, top = math.floor(x), math.floor(y)
+
+    def at(row, column):
+        return texels[min(max(row, 0), height - 1), min(max(column, 0), width - 1)]
+
+    upper = (left + 1 - x) * at(top, left) + (x - left) * at(top, left + 1)
+    lower = (left + 1 - x) * at(top + 1, left) + (x - left) * at(top + 1, left + 1)
+    return (top + 1 - y) * upper + (y - top) * lower
 
 
 @functools.lru_cache
@@ -239,31 +278,67 @@ class Room:
         hit = nearest(self.surfaces, start, way)
         if not hit:
             return 0, "the pixel's ray meets no surface"
-        face, (t, _, _) = hit
+        face, (t, u, v) = hit
         point = start + t * way
         said = f"the ray meets {face.name} at {numpy.round(point, 6).tolist()}"
-        total = 0.0
+        lit, content, weight = 0.0, 0.0, 0.0
         if light:
-            total += face.thing.get("illumination", 0)
-            said += f", lit {total:g} at zero power"
+            lit = face.thing.get("illumination", 0)
+            said += f", lit {lit:g} at zero power"
         if n is not None:
-            content, how = self.content(face, point, eye, n)
-            total += content
+            content, weight, how = self.content(face, point, eye, n)
             said += how
-        code = math.floor(255 * min(1.0, total) + 0.5)
-        return code, f"{said}; round(255 x {total:.6f}) = {code}"
+        total, how = self.given(face, point, (u, v), content, weight, lit)
+        said += how
+        place = self.place_of(min(1.0, max(0.0, total)))
+        code = math.floor(255 * place + 0.5)
+        return code, f"{said}; round(255 x {place:.6f}) = {code}"
+
+    def given(self, face, point, uv, content, weight, lit):
+        """The light that has to be given so that content and lit come back (docs/colour.md), and the way to it."""
+        asked = self.project["slices"].get("compensation", {"mode": "off"})
+        if asked["mode"] == "off":
+            return content + lit, ""
+        projector = self.project["projectors"][0]
+        density = 1.0
+        if asked["mode"] == "even":
+            q = projector["rotation_xyzw"]
+            away = numpy.array(point) - projector["position_m"]
+            depth = -turned([-q[0], -q[1], -q[2], q[3]], away)[2]
+            density = abs(float(face.normal @ away)) / depth**3 * asked["reference_m"] ** 2
+        albedo = luminance(self.albedo(face, uv))
+        black = projector.get("black_level", 0)
+        leak = black * (len(self.powers_d) + (0 if 0 in self.powers_d or not self.lit_at_all() else 1))
+        total = (asked["white"] * content / (albedo * density) - leak * weight) / (1 - black) + asked["white"] * lit / density
+        return total, (f"; albedo {albedo:.6f}, density {density:.6f}, leak {leak:g}: given {total:.6f} for content {content:.6f} "
+                       f"of weight {weight:.6f} and light {lit:g}")
+
+    def lit_at_all(self):
+        return any(s.get("illumination", 0) > 0 for s in self.project["surfaces"])
+
+    def albedo(self, face, uv):
+        albedo = face.thing.get("albedo", [1, 1, 1])
+        return texel_at(albedo["file"], uv) if isinstance(albedo, dict) else albedo
+
+    def place_of(self, light):
+        """Where along the codes, 0 to 1, the projector gives this light."""
+        projector = self.project["projectors"][0]
+        transfer = projector.get("transfer")
+        if not transfer:
+            return light ** (1 / projector["gamma"])
+        return float(numpy.interp(light, transfer, numpy.linspace(0, 1, len(transfer))))
 
     def content(self, face, point, eye, n):
         pupil, lens = self.pupils[eye], self.lens(eye)
         sight = nearest(self.surfaces, pupil, point - pupil)
         if sight and sight[1][0] < 1 - 1e-9:
-            return 0.0, f"; {sight[0].name} hides it from the {eye} eye"
+            return 0.0, 0.0, f"; {sight[0].name} hides it from the {eye} eye"
         d_p = lens[2] - point[2]
         look = (point - lens) + (1 - self.powers_d[n] * d_p) * (lens - pupil)
         met = nearest(self.objects, pupil, look, self.there)
         said = f"; d_p = {d_p:.6f} m, look {numpy.round(look, 6).tolist()}"
         if not met:
-            return 0.0, said + " meets no object"
+            return 0.0, 0.0, said + " meets no object"
         target, (t, u, v) = met
         seen = pupil + t * look
         depth = target.thing.get("depth", {"mode": "placed"})
@@ -275,7 +350,7 @@ class Room:
         weight, color = self.weight(n, wanted_d), self.color(target, u, v, look)
         said += (f" meets {target.name} at u = {u:.4f}, v = {v:.4f}: gray {color:.6f}, 1/d_v = {vergence_d:.6f} D; wanted "
                  f"1/{d_plane:.6f} - 1/d_v = {wanted_d:.6f} D: weight {weight:.6f}")
-        return weight * color, said
+        return weight * color, weight, said
 
 
 def exposure(project, eye, power_d):

@@ -277,3 +277,29 @@ TEST_CASE("sizes no mesh can be made of are refused") {
     CHECK(stood.fault().where == "/surfaces/0/mesh/" + key);
   }
 }
+
+TEST_CASE("a surface stands with its paint: a colour, a picture, its own material without the lights") {
+  Project project;
+  project.lights.emplace_back();
+  project.surfaces = {surface("plain", PlaneMesh{}), surface("painted", PlaneMesh{}), surface("pictured", PlaneMesh{}),
+                      surface("own", FileMesh{"assets/parts.glb"})};
+  project.surfaces[1].albedo = PlainAlbedo{{0.5, 0.25, 0.125}};
+  project.surfaces[2].albedo = FileAlbedo{"assets/bricks.png", {}};
+  project.surfaces[3].albedo = MaterialAlbedo{};
+  Assets assets = assets_with_model();
+  const Result<Stage> without = stage(project, assets, 0.0);
+  REQUIRE_FALSE(without.ok());
+  CHECK(without.fault().code == "stage.asset-missing");
+  CHECK(without.fault().where == "/surfaces/2/albedo/file");
+  assets.pictures["assets/bricks.png"] = std::make_shared<const OnePixel>(3);
+  const Result<Stage> staged = stage(project, assets, 0.0);
+  REQUIRE(staged.ok());
+  const auto& surfaces = staged->surfaces;
+  CHECK(surfaces[0].drawables[0].finish == Finish{});
+  CHECK(surfaces[1].drawables[0].finish == flat({0.5, 0.25, 0.125}));
+  CHECK(surfaces[2].drawables[0].finish.kind == Finish::Kind::textured);
+  REQUIRE(surfaces[2].drawables[0].finish.texture);
+  CHECK(surfaces[2].drawables[0].finish.texture->wrap_u == Wrap::clamp);
+  CHECK(surfaces[3].drawables[0].finish.a == glm::dvec3(1, 0, 0));
+  for (const Drawable& drawable : surfaces[3].drawables) CHECK_FALSE(drawable.finish.lit);
+}

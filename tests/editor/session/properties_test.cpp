@@ -104,6 +104,9 @@ std::shared_ptr<const Stage> staged(Project project, double time_s = 0.0) {
   std::erase_if(project.objects,
                 [](const Object& each) { return std::holds_alternative<ImageAppearance>(each.appearance); });
   std::erase_if(project.surfaces, is_filed);
+  for (Surface& surface : project.surfaces) {
+    if (std::holds_alternative<FileAlbedo>(surface.albedo)) surface.albedo = PlainAlbedo{};
+  }
   auto made = stage(project, {}, time_s);
   REQUIRE(made.ok());
   return std::make_shared<const Stage>(std::move(*made));
@@ -257,6 +260,7 @@ TEST_CASE("every key a project file may have stands in some row") {
     project.surfaces.back().mesh.shape = shape;
   }
   project.surfaces[0].mesh = filed;
+  project.surfaces.back().albedo = FileAlbedo{"assets/wall.png", {}};
   std::set<std::string> shown;
   for (const Thing& thing : things_of(project)) {
     for (const PropertyGroup& group : rows_of(project, {thing})) {

@@ -190,3 +190,29 @@ TEST_CASE("what a file holds is counted") {
   CHECK(torus->vertices == 63);
   CHECK(torus->triangles == 96);
 }
+
+TEST_CASE("pictures of surfaces are read with the meshes, and missed at their place") {
+  const Folder folder;
+  fill(folder);
+  Project project;
+  project.surfaces.resize(2);
+  project.surfaces[0].albedo = FileAlbedo{"textures/t.png", {}};
+  project.surfaces[1].albedo = FileAlbedo{"textures/t.png", {}};
+  CHECK(asset_files(project) == std::set<std::string>{"textures/t.png"});
+  const Result<LoadedAssets> loaded = load_assets(project, folder.path());
+  REQUIRE(loaded);
+  REQUIRE(loaded->files.size() == 1);
+  REQUIRE(loaded->assets.pictures.size() == 1);
+  CHECK(has_all(loaded->assets, project));
+  CHECK_FALSE(has_all({}, project));
+  const Result<Assets> from_memory = assets_from(project, loaded->files);
+  REQUIRE(from_memory);
+  CHECK(from_memory->pictures.contains("textures/t.png"));
+  project.surfaces[1].albedo = FileAlbedo{"textures/none.png", {}};
+  const Result<LoadedAssets> missing = load_assets(project, folder.path());
+  REQUIRE_FALSE(missing.ok());
+  CHECK(missing.fault().code == "asset.missing");
+  CHECK(missing.fault().where == "/surfaces/1/albedo/file");
+  project.surfaces[1].albedo = FileAlbedo{"assets/b.bin", {}};
+  CHECK_FALSE(load_assets(project, folder.path()).ok());
+}

@@ -27,18 +27,20 @@ inline constexpr const char* full_sample = R"({
                            "right": { "power_d": [-2, 0, 1, 2, 3, 2, 1, 0], "drive_a": [0, 1, 2, 3, 4, 5, 6, 8] } } },
   "projectors": [ { "name": "main", "model": "dynaflash", "width_px": 1024, "height_px": 768, "pixel_layout": "diamond",
                     "frames_per_second": 2000, "bits": 8, "color": "gray", "latency_ms": 0.15, "gamma": 1,
+                    "transfer": [0, 0.25, 1], "black_level": 0.01,
                     "fx_px": 1400, "fy_px": 1400, "cx_px": 512, "cy_px": 384, "distortion": [0.1, 0, 0, 0, 0],
                     "position_m": [0, 0.3, 0], "rotation_xyzw": [0, 0, 0, 1],
                     "exposure_ms": 0.4, "focus_m": 0.5, "depth_of_field_d": 0.5, "lumens": 300 } ],
-  "slices": { "powers_d": [-1, 0, 1], "assignment": "linear", "breathing": "exact", "samples_per_pixel": 1 },
+  "slices": { "powers_d": [-1, 0, 1], "assignment": "linear", "breathing": "exact", "samples_per_pixel": 1,
+              "compensation": { "mode": "albedo", "white": 0.5, "reference_m": 2 } },
   "frames": { "count": 2, "rate_hz": 30 },
   "surfaces": [
     { "name": "plane", "mesh": { "primitive": "plane", "size_m": [1.2, 0.8] }, "position_m": [0, 0, -0.5],
-      "rotation_xyzw": [0, 0, 0, 1], "scale": 2, "illumination": 0.5,
+      "rotation_xyzw": [0, 0, 0, 1], "scale": 2, "illumination": 0.5, "albedo": [0.5, 0.25, 1],
       "keys": [ { "time_s": 0, "position_m": [0, 0, 0], "rotation_xyzw": [0, 0, 0, 1] } ],
       "track": "wand", "group": "walls", "hidden": true, "locked": true },
-    { "name": "sphere", "mesh": { "primitive": "sphere", "radius_m": 0.2 } },
-    { "name": "corner", "mesh": { "primitive": "corner", "size_m": [1, 1], "angle_deg": 90 } },
+    { "name": "sphere", "mesh": { "primitive": "sphere", "radius_m": 0.2 }, "albedo": { "file": "assets/stone.jpg" } },
+    { "name": "corner", "mesh": { "primitive": "corner", "size_m": [1, 1], "angle_deg": 90 }, "albedo": "material" },
     { "name": "step", "mesh": { "primitive": "step", "size_m": [1, 1], "depth_m": 0.1 } },
     { "name": "teapot", "mesh": { "primitive": "teapot" } },
     { "name": "scan", "mesh": { "file": "assets/wall.ply", "process": [ { "step": "flip" }, { "step": "weld", "tolerance_mm": 0.1 }, { "step": "drop-bits", "least_share": 0.02 },
@@ -67,7 +69,8 @@ inline constexpr const char* full_sample = R"({
     { "name": "teapot", "mesh": { "primitive": "teapot" } } ],
   "lights": [ { "name": "lamp", "kind": "point", "position_m": [0, 2, 0], "direction": [0, -1, -1],
                 "color": [1, 1, 0.9], "intensity": 0.7 } ],
-  "cues": [ { "name": "start", "time_s": 0 }, { "name": "turn", "time_s": 0.5 } ]
+  "cues": [ { "name": "start", "time_s": 0 }, { "name": "turn", "time_s": 0.5 } ],
+  "ambient_lux": 20
 })";
 
 inline Value value_of(std::string_view json) {

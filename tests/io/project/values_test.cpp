@@ -81,6 +81,24 @@ const std::vector<Bad> bad_values{
     {"/projectors/0/bits", "9", "project.range", ""},
     {"/projectors/0/frames_per_second", "0", "project.range", ""},
     {"/projectors/0/gamma", "0", "project.range", ""},
+    {"/projectors/0/transfer", "[0.1,1]", "project.range", ""},
+    {"/projectors/0/transfer", "[0]", "project.range", ""},
+    {"/projectors/0/transfer", "[0,0.9]", "project.range", ""},
+    {"/projectors/0/transfer", "[0,0.5,0.4,1]", "project.order", ""},
+    {"/projectors/0/transfer/1", "1.5", "project.range", ""},
+    {"/projectors/0/black_level", "0.6", "project.range", ""},
+    {"/projectors/0/black_level", "-0.1", "project.range", ""},
+    {"/slices/compensation/mode", R"("bright")", "project.word", ""},
+    {"/slices/compensation/white", "0", "project.range", ""},
+    {"/slices/compensation/reference_m", "0", "project.range", ""},
+    {"/slices/compensation", R"("even")", "project.type", ""},
+    {"/surfaces/0/albedo", "[1,1,1.5]", "project.range", "/surfaces/0/albedo/2"},
+    {"/surfaces/0/albedo", "[1,1]", "project.type", ""},
+    {"/surfaces/0/albedo", R"("stone")", "project.word", ""},
+    {"/surfaces/0/albedo", "0.5", "project.type", ""},
+    {"/surfaces/1/albedo", "{}", "project.missing", "/surfaces/1/albedo/file"},
+    {"/surfaces/1/albedo/file", R"("")", "project.name", ""},
+    {"/ambient_lux", "-1", "project.range", ""},
     {"/projectors/0/fx_px", "0", "project.range", ""},
     {"/projectors/0/exposure_ms", "0", "project.range", ""},
     {"/projectors/0/latency_ms", "-1", "project.range", ""},
@@ -184,7 +202,7 @@ TEST_CASE("the schema itself refuses what a schema can express") {
     const std::string_view pointer = bad.pointer;
     return code == "project.order" || code == "project.rotation" || code == "project.duplicate" ||
            pointer == "/glasses/lens_range_d" || pointer.starts_with("/sweep/m") || pointer == "/slices/powers_d" ||
-           pointer.ends_with("/drive_a") || pointer == "/lights/0" ||
+           pointer == "/projectors/0/transfer" || pointer.ends_with("/drive_a") || pointer == "/lights/0" ||
            (pointer == "/objects/2/appearance/image/file" && bad.value != std::string_view(R"("")")) ||
            bad.value == std::string_view(R"("a\nb")") ||
            (pointer == "/objects/1/depth/index" && bad.value == std::string_view("3"));

@@ -1,7 +1,7 @@
+#include "core/stage/texture_sample.h"
+
 #include <cmath>
 #include <vector>
-
-#include "core/compile/shading.h"
 
 namespace focalstage {
 namespace {
