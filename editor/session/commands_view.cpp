@@ -92,9 +92,9 @@ Status assignment(Session& session, const Value&) {
 
 Status compensation(Session& session, const Value&) {
   auto& now = session.view().compensation;
-  now = now == Compensation::on    ? Compensation::off
-        : now == Compensation::off ? Compensation::difference
-                                   : Compensation::on;
+  now = now == ShownBreathing::on    ? ShownBreathing::off
+        : now == ShownBreathing::off ? ShownBreathing::difference
+                                     : ShownBreathing::on;
   return {};
 }
 

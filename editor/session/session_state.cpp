@@ -152,7 +152,7 @@ void Session::State::wish_preview() {
   wish.stage = stage;
   wish.models = models;
   wish.moving = dragging || view.playing;
-  wish.uncompensated = view.compensation != Compensation::on;
+  wish.uncompensated = view.compensation != ShownBreathing::on;
   wish.eye = eye_wish(view, eye_size_px);
   wish.eye.sweep_time_s = view.sweep_time_s;
   wish.eye.rig = seen_rig();

@@ -18,7 +18,8 @@ namespace focalstage {
 
 enum class PaneId { room, projector, eye, time };
 enum class LookThrough { nothing, left_eye, right_eye, projector };
-enum class Compensation { on, off, difference };
+/// Whose images the projector view shows: with breathing compensated, without, or how the two differ.
+enum class ShownBreathing { on, off, difference };
 enum class ProjectorPicture { slice, assignment };
 
 /// A six-axis input (a SpaceMouse) at this editor.
@@ -49,7 +50,7 @@ struct ViewState {
   Side side = Side::left;  ///< whose images the projector view shows
   int image = 0;           ///< in the image plan
   ProjectorPicture picture = ProjectorPicture::slice;
-  Compensation compensation = Compensation::on;
+  ShownBreathing compensation = ShownBreathing::on;
   double zoom = 0.0;  ///< screen pixels per projector pixel; 0: fit
   glm::dvec2 pan_px{0.0};
 

@@ -82,8 +82,8 @@ void ProjectorPane::fill(const CompiledSlices& slices, const Shown& shown) {
     plane_.clear();
     return;
   }
-  const bool compared = shown.compensation != Compensation::on && image < slices.uncompensated.count;
-  if (compared && shown.compensation == Compensation::difference) {
+  const bool compared = shown.compensation != ShownBreathing::on && image < slices.uncompensated.count;
+  if (compared && shown.compensation == ShownBreathing::difference) {
     plane_.set(size_px, 3, difference_picture(images.image(image), slices.uncompensated.image(image), images.channels));
   } else {
     plane_.set(size_px, images.channels, compared ? slices.uncompensated.image(image) : images.image(image));
@@ -132,11 +132,11 @@ void ProjectorPane::draw_chips(Session& session, const PaneRect& area) {
   if (top.button("assignment", "Assignment", assignment)) (void)session.run("projector.assignment");
   ButtonStyle compensation;
   compensation.icon = "compare";
-  compensation.down = view.compensation != Compensation::on;
+  compensation.down = view.compensation != ShownBreathing::on;
   compensation.tip = {"Breathing compensation: on, off, and what it changes", "B", {}};
-  const char* words = view.compensation == Compensation::on    ? "Compensated"
-                      : view.compensation == Compensation::off ? "Not compensated"
-                                                               : "Difference";
+  const char* words = view.compensation == ShownBreathing::on    ? "Compensated"
+                      : view.compensation == ShownBreathing::off ? "Not compensated"
+                                                                 : "Difference";
   if (top.button("compensation", words, compensation)) (void)session.run("projector.compensation");
   Chips bottom(area, Chips::Corner::bottom_left);
   const ImageSpec& spec = slices->settings.images[image_of(*slices, view)];

@@ -31,7 +31,7 @@ class ProjectorPane : public Pane {
     int image = 0;
     Side side = Side::left;
     ProjectorPicture picture = ProjectorPicture::slice;
-    Compensation compensation = Compensation::on;
+    ShownBreathing compensation = ShownBreathing::on;
     ImagePlacement placement;
     glm::ivec2 size_px{0};
     bool operator==(const Shown&) const = default;
