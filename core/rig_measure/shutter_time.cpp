@@ -79,9 +79,34 @@ struct Run {
   double end_s = 0.0;
 };
 
-Run run_of(const std::vector<LightPoint>& points) {
+/// Where a straight line through the points around `near_s` passes `level`. A rising curve passes it where the few
+/// points at hand say so, and their traces may differ by hum; so many that each trace is among them say it better.
+double passing_near_s(const std::vector<LightPoint>& points, double level, double near_s, double half_s) {
+  const auto from = std::ranges::lower_bound(points, near_s - half_s, {}, &LightPoint::time_s);
+  const auto to = std::ranges::upper_bound(points, near_s + half_s, {}, &LightPoint::time_s);
+  double n = 0.0, t = 0.0, v = 0.0, tt = 0.0, tv = 0.0;
+  for (auto point = from; point != to; ++point) {
+    const double at_s = point->time_s - near_s;
+    n += 1.0;
+    t += at_s;
+    v += point->value;
+    tt += at_s * at_s;
+    tv += at_s * point->value;
+  }
+  const double slope = (tv - t * v / n) / (tt - t * t / n);
+  const double off_s = (level - (v - slope * t) / n) / slope;
+  return slope > 0.0 && std::abs(off_s) < half_s ? near_s + off_s : near_s;
+}
+
+Run run_of(const std::vector<LightPoint>& points, double step_s) {
   const RisingCurve curve = rising_curve(points);
   Run run{curve.passing_s(0.1), curve.passing_s(0.9), 0.0};
+  // As far to both sides as a straight run stays straight; of a quick one that is less than a sample or two.
+  const double half_s = 0.08 * (run.late_s - run.early_s);
+  if (half_s > 2.0 * step_s) {
+    run.early_s = passing_near_s(points, 0.1, run.early_s, half_s);
+    run.late_s = passing_near_s(points, 0.9, run.late_s, half_s);
+  }
   run.end_s = std::max(run.late_s + (run.late_s - run.early_s) / 8.0, curve.passing_s(0.98));
   return run;
 }
@@ -101,12 +126,12 @@ Result<Estimate> shutter_time_ms(const std::vector<LightPoint>& shares, const Sh
   const Result<Levels> levels = levels_of(shares, change, before_s, where);
   if (!levels) return levels.fault();
   const std::vector<LightPoint> all = way(shares, *levels, before_s, change.until_s, -1);
-  const Run run = run_of(all);
+  const Run run = run_of(all, look.step_s);
   double squares = 0.0;
   double mean = 0.0;
   std::vector<double> parts;
   for (int group = 0; group < groups; ++group) {
-    parts.push_back(run_of(way(shares, *levels, before_s, change.until_s, group)).end_s);
+    parts.push_back(run_of(way(shares, *levels, before_s, change.until_s, group), look.step_s).end_s);
     mean += parts.back() / groups;
   }
   for (const double part : parts) squares += (part - mean) * (part - mean);
@@ -114,7 +139,8 @@ Result<Estimate> shutter_time_ms(const std::vector<LightPoint>& shares, const Sh
   // The shifted traces see between each other's samples: what is left is a part of a step, and gaps in the light.
   const double grid_s = look.step_s / 8.0;
   const double gaps_s = std::hypot(gap_at(all, run.early_s), gap_at(all, run.late_s)) / std::sqrt(12.0);
-  const double level_s = look.level_spread * (run.late_s - run.early_s) / 0.8;
+  // Before, after and in between: three levels, each as well known as the next.
+  const double level_s = std::sqrt(3.0) * look.level_spread * (run.late_s - run.early_s) / 0.8;
   const double known_s = std::hypot(grid_s, gaps_s, std::hypot(level_s, look.delay_spread_s));
   return Estimate{1e3 * (run.end_s - change.told_s), 1e3 * std::hypot(repeats_s, known_s)};
 }

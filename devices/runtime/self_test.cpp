@@ -27,9 +27,8 @@ constexpr Half early_half{{0.01, 0.56}, {0.67, 1.575}, {0.0, 0.58}};
 constexpr Half late_half{{0.44, 0.985}, {0.12, 0.99}, {0.42, 0.995}};
 constexpr const Half& half_of(bool early) { return early ? early_half : late_half; }
 
-// When a shutter is told to open and to close while that is measured, and by when it must have closed: in its half.
-constexpr PerEye<PeriodWindow> moving{{0.06, 0.45}, {0.5, 0.89}};
-constexpr PerEye<double> closed_by{0.555, 0.98};
+// When a shutter is told to open and to close while that is measured: in its half, with light left to see it closed.
+constexpr PerEye<PeriodWindow> moving{{0.06, 0.43}, {0.5, 0.87}};
 
 constexpr PeriodWindow one_exposure{0.5, 0.58};
 constexpr PeriodWindow around_it{0.45, 0.56};
@@ -171,11 +170,13 @@ Status SelfTest::measure_shutter(Side eye) {
   const std::vector<LightPoint> shares = full->shares(*traces);
   const double opened_s = moving[eye].from * period_s_;
   const double closed_s = moving[eye].to * period_s_;
+  // How far the light really goes: a whole number of exposures, as late as the projector is.
+  const double dark_s = shares.empty() ? closed_s : shares.back().time_s;
   const ShutterLook how{watch_.step_s(), full->level_spread(), delay_spread_s()};
   const Result<Estimate> opens = shutter_time_ms(shares, {true, opened_s, closed_s}, how, shutter_name(eye));
   if (!opens) return opens.fault();
   const Result<Estimate> closes =
-      shutter_time_ms(shares, {false, closed_s, closed_by[eye] * period_s_}, how, shutter_name(eye));
+      shutter_time_ms(shares, {false, closed_s, dark_s}, how, shutter_name(eye));
   if (!closes) return closes.fault();
   found_.eye[eye].shutter_open_ms = *opens;
   found_.eye[eye].shutter_close_ms = *closes;

@@ -52,7 +52,8 @@ def test_a_file_names_the_tracker():
             time.sleep(0.5)
             parts = succeed("rig", "state", "--to", address, "--json").json()["parts"]
             assert [(part["driver"], part["phase"], part["address"]) for part in parts] == [
-                ("sim", "running", "in this program"), ("recording", "running", str(at / "walk.csv"))], parts
+                ("sim", "running", "in this program"), ("recording", "running", str(at / "walk.csv")),
+                ("sim", "ready", "in this program")], parts
         assert len(again.read_text().splitlines()) > 20
         config = rig_json(at, {"driver": "recording", "file": "walk.csv"})
         with rig(at, "--config", config, "--tracker", f"recording:{at}/walk.csv"):

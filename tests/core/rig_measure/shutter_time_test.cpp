@@ -66,6 +66,25 @@ TEST_CASE("a shutter that runs straight takes its whole run, opening and closing
   }
 }
 
+TEST_CASE("hum that makes each trace another does not move a slow shutter") {
+  Bench bench;
+  bench.transmission = straight(0.0024, 0.0003);
+  bench.sensor.hum = 0.005;
+  double worst_ms = 0.0;
+  double squares = 0.0;
+  for (int n = 0; n < 40; ++n) {
+    // Not every third sweep: nothing says how hum and traces fall together.
+    bench.sensor.seed = 100 + static_cast<std::uint32_t>(n);
+    bench.sensor.hum_hz = 97.0 + 0.17 * n;
+    const auto opens = bench.opens();
+    REQUIRE(opens);
+    worst_ms = std::max(worst_ms, std::abs(opens->value - 2.4));
+    squares += std::pow((opens->value - 2.4) / opens->spread, 2) / 40.0;
+  }
+  CHECK(worst_ms < 0.02);
+  CHECK(std::sqrt(squares) < 1.5);
+}
+
 TEST_CASE("a dead time before it moves counts, and a slow tail is waited for") {
   Bench bench;
   bench.sensor.noise = 0.001;
