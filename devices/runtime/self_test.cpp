@@ -175,8 +175,7 @@ Status SelfTest::measure_shutter(Side eye) {
   const ShutterLook how{watch_.step_s(), full->level_spread(), delay_spread_s()};
   const Result<Estimate> opens = shutter_time_ms(shares, {true, opened_s, closed_s}, how, shutter_name(eye));
   if (!opens) return opens.fault();
-  const Result<Estimate> closes =
-      shutter_time_ms(shares, {false, closed_s, dark_s}, how, shutter_name(eye));
+  const Result<Estimate> closes = shutter_time_ms(shares, {false, closed_s, dark_s}, how, shutter_name(eye));
   if (!closes) return closes.fault();
   found_.eye[eye].shutter_open_ms = *opens;
   found_.eye[eye].shutter_close_ms = *closes;

@@ -169,12 +169,14 @@ Property& word_row(PropertyRows& rows, const char* label, const char* key, std::
 }
 
 void add_sequence_rows(PropertyRows& rows) {
-  rows.number<ImageAppearance>("first picture", "appearance/image/first", {"", 0, 0.1}).help =
-      "The number in its name.";
+  Property& first = rows.number<ImageAppearance>("first picture", "appearance/image/first", {"", 0, 0.1});
+  first.help = "The number in its name.";
+  if (first.value.is_null()) first.fresh = Value(2);
   rows.number<ImageAppearance>("pictures", "appearance/image/count", {"", 0, 0.1});
   rows.number<ImageAppearance>("rate", "appearance/image/rate_hz", {"Hz", 3, 0.01}).help = "Pictures per second.";
-  rows.number<ImageAppearance>("start", "appearance/image/start_s", {"s", 3, 0.01}).help =
-      "When the first picture comes, on the project's clock.";
+  Property& start = rows.number<ImageAppearance>("start", "appearance/image/start_s", {"s", 3, 0.01});
+  start.help = "When the first picture comes, on the project's clock.";
+  start.fresh = Value(0.5);
   word_row(rows, "afterwards", "appearance/image/loop",
            {{Value("loop"), "from the first again"},
             {Value("hold"), "the last stays"},
@@ -209,8 +211,9 @@ void add_image_rows(PropertyRows& rows) {
   word_row(rows, "colour space", "appearance/image/color_space",
            {{Value("srgb"), "sRGB"}, {Value("linear"), "linear light"}}, "srgb");
   rows.flag("lit", "appearance/image/lit").help = "Whether the lights act on it.";
-  rows.number<ImageAppearance>("cut below", "appearance/image/alpha_cutoff", {"", 2, 0.005}).help =
-      "What is less opaque is cut away; 0: nothing is.";
+  Property& cutoff = rows.number<ImageAppearance>("cut below", "appearance/image/alpha_cutoff", {"", 2, 0.005});
+  cutoff.help = "What is less opaque is cut away; 0: nothing is.";
+  cutoff.fresh = Value(0.5);
 }
 
 void add_checker_rows(PropertyRows& rows) {

@@ -361,7 +361,7 @@ TEST_CASE("nothing selected shows the project") {
   const Project project = rich_project();
   const auto groups = rows_of(project, {});
   CHECK(row_named(groups, "name")->value == Value("rich"));
-  CHECK(row_named(groups, "objects")->value == Value("5"));
+  CHECK(row_named(groups, "objects")->value == Value("7"));
   CHECK(row_named(groups, "slices")->value == Value("3"));
   CHECK(after(project, {}, "name", Value("Другой")).name == "Другой");
   CHECK(title_for({project}, {}).title == "rich");
