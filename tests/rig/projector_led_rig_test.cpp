@@ -150,6 +150,9 @@ class Room {
     Mcc1208Settings generator;
     generator.amperes_per_volt = 0.12;
     generator.enable_bit = 0;
+    // Of this machine's time: that of the devices goes slower where it is busy.
+    generator.silence_s = 3.0;
+    generator.answer_s = 0.5;
     devices.lens = make_mcc1208(generator);
     UnoSettings uno;
     uno.path = link_;
@@ -166,6 +169,10 @@ class Room {
   double time_s() const {
     const std::lock_guard lock(mutex_);
     return time_s_;
+  }
+  std::size_t seen() const {
+    const std::lock_guard lock(mutex_);
+    return seen_.size();
   }
 
   std::atomic<bool> lens_wired = true;
@@ -292,21 +299,20 @@ class Room {
   std::jthread time_;
 };
 
-/// A player's hand, with light for so long by the devices' time, or until there is a doubt.
-void play(DeviceRig& rig, const Room& room, double seconds_lit) {
+/// A player's hand, until there was so much light, or a doubt, or it takes too long.
+void play(DeviceRig& rig, const Room& room, std::size_t exposures) {
   std::vector<double> drive;
   for (int i = 0; i < 400; ++i) drive.push_back(amplitude_a * std::sin(2.0 * std::numbers::pi * i / 400));
   const std::vector<Picture> pictures{picture_of(0), picture_of(1), picture_of(2)};
   double next_s = monotonic_s() + 6 * show_period_s;
-  std::optional<double> lit_s;
-  for (int sweep = 0; !rig.doubt() && (!lit_s || room.time_s() < *lit_s + seconds_lit); ++sweep) {
+  const double until_s = next_s + 40.0;
+  for (int sweep = 0; !rig.doubt() && room.seen() < exposures && next_s < until_s; ++sweep) {
     if (sweep == 0) {
       rig.set_exposure(exposure_s, {});
       rig.announce_triggers(slots_s);
       for (const Side eye : both_sides) rig.set_drive(eye, drive, show_period_s / 400);
     }
     const bool lit = sweep >= rig.settle_sweeps();
-    if (lit && !lit_s) lit_s = room.time_s();
     rig.post_images(lit ? pictures : std::vector<Picture>{});
     rig.sync_edge(next_s);
     rig.shutter(Side::left, ShutterLevel::open, next_s + 0.0002);
@@ -332,7 +338,7 @@ double asked_d(double at_s) {
 
 void becomes_ready(DeviceRig& rig) {
   Status ready;
-  for (const double until_s = monotonic_s() + 20.0; monotonic_s() < until_s;) {
+  for (const double until_s = monotonic_s() + 60.0; monotonic_s() < until_s;) {
     ready = rig.ready();
     if (ready) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -341,7 +347,7 @@ void becomes_ready(DeviceRig& rig) {
 }
 
 /// Each exposure is what was asked for at its place in the period; those from `dark_s` on may lack their shutter, which
-/// closes at once. How many there were.
+/// closes at once, and their power, where the drive was what failed. How many there were.
 std::size_t hold_against(const std::vector<Seen>& seen, double dark_s) {
   double worst_d = 0.0;
   double worst_s = 0.0;
@@ -352,10 +358,11 @@ std::size_t hold_against(const std::vector<Seen>& seen, double dark_s) {
         std::ranges::min_element(slots_s, {}, [&](double start_s) { return std::abs(start_s - slot_s); });
     const bool of_left = nearest - slots_s.begin() < 2;
     worst_s = std::max(worst_s, std::abs(*nearest - slot_s));
-    worst_d = std::max(worst_d, std::abs(light.power_d - asked_d(*nearest + 0.5 * exposure_s)));
     wrong += light.picture != nearest - slots_s.begin() ? 1 : 0;
-    if (light.start_s < dark_s) CHECK((of_left ? light.left : light.right) >= 0.999);
     CHECK((of_left ? light.right : light.left) <= 0.001);
+    if (light.start_s >= dark_s) continue;
+    worst_d = std::max(worst_d, std::abs(light.power_d - asked_d(*nearest + 0.5 * exposure_s)));
+    CHECK((of_left ? light.left : light.right) >= 0.999);
   }
   CHECK(wrong == 0);
   MESSAGE(seen.size(), " exposures: power within ", worst_d, " D, time within ", 1e6 * worst_s, " us");
@@ -380,20 +387,21 @@ TEST_CASE("a LightCrafter leads: each exposure its own picture, power and shutte
   DeviceRig rig(room.devices(), settings);
   // A machine that is too busy makes it dark, rightly; then once more. What light there is must be right each time.
   bool played = false;
-  for (int attempt = 0; attempt < 5 && !played; ++attempt) {
+  for (const double until_s = monotonic_s() + 150.0; !played && monotonic_s() < until_s;) {
     becomes_ready(rig);
-    play(rig, room, 2.5);
+    play(rig, room, 450);
     const auto doubt = rig.doubt();
-    const double dark_s = room.time_s() - (doubt ? 0.1 : 0.01);  // a doubt made it dark before it was heard of
+    const double dark_s =
+        room.time_s() - (doubt ? 0.15 : 0.01);  // what fails is noticed within its detection time and a sweep
     rig.dark(monotonic_s());
-    played = hold_against(light_of(room), dark_s) > 300 && !doubt;
+    played = hold_against(light_of(room), dark_s) >= 450;
     if (doubt) MESSAGE(describe(*doubt));
   }
   CHECK(played);
 
   becomes_ready(rig);
   room.lens_wired = false;
-  play(rig, room, 1.0);
+  play(rig, room, 1);
   REQUIRE(rig.doubt());  // pictures were due and the drive was not in step
   CHECK(light_of(room).empty());
 }

@@ -54,6 +54,7 @@ std::string HidrawNode::hid() const {
 void HidrawNode::plug() {
   unplug();
   ++number_;
+  load_ioctls();  // first: an opener that comes between the node and what answers its requests is ended by the test bed
   add_devices();
   descriptor_ = umockdev_testbed_get_dev_fd(bed_, path().c_str());
   if (descriptor_ < 0) {
@@ -107,7 +108,6 @@ void HidrawNode::add_devices() {
       hid().substr(hid().rfind('/') + 1) + "\n\n";
   GError* error = nullptr;
   if (umockdev_testbed_add_from_string(bed_, text.c_str(), &error) == FALSE) report(error);
-  load_ioctls();
 }
 
 /// hidapi asks for the size and the bytes of the report descriptor.

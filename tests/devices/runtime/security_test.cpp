@@ -28,7 +28,7 @@ namespace focalstage {
 namespace {
 
 using std::chrono::milliseconds;
-constexpr milliseconds deadline(3000);
+constexpr milliseconds deadline(10000);  // a busy machine may take its time: what it waits for comes
 constexpr milliseconds short_deadline(700);
 
 bool eventually(const std::function<bool()>& holds) {

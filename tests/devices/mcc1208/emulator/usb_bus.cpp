@@ -53,11 +53,12 @@ void UsbBus::add(int bus, int number, const std::string& name, const std::string
     cut_ = false;
   }
   GError* error = nullptr;
-  if (!umockdev_testbed_add_from_string(testbed_, text.c_str(), &error)) give_up("plugging in", error);
+  // Who answers comes before the node: an opener that comes between them is ended by the test bed.
   UMockdevIoctlBase* handler = umockdev_ioctl_base_new();
   g_signal_connect(handler, "handle-ioctl", G_CALLBACK(ioctl), this);
   if (!umockdev_testbed_attach_ioctl(testbed_, ("/dev/" + node).c_str(), handler, &error)) give_up("attaching", error);
   handlers_.push_back(handler);
+  if (!umockdev_testbed_add_from_string(testbed_, text.c_str(), &error)) give_up("plugging in", error);
   path_ = "/sys" + path;
 }
 
