@@ -132,10 +132,11 @@ int main(int argc, char** argv) {
       "On stdin: unplug|plug lens|board|projector, lose-trigger, time, quit; each is answered with what\n"
       "is then to be seen, as JSON.");
   RoomSettings settings;
-  settings.firmware_elf = FOCALSTAGE_FIRMWARE_ELF;
+  settings.firmware_elf = settings.photodiodes.firmware_elf = FOCALSTAGE_FIRMWARE_ELF;
   std::vector<std::string> command;
   app.add_option("--socket", settings.optics.socket, "where the projector listens")->required();
   app.add_option("--board", settings.board_link, "link to the board's port")->required();
+  app.add_option("--light-sensor", settings.photodiodes.board_link, "link to the port of a board with photodiodes");
   app.add_option("--report", settings.report, "file for what was lit: JSON lines")->required();
   app.add_option("--clock-ppm", settings.board_clock_ppm, "by which the board's clock is fast")->capture_default_str();
   app.add_option("--lens-lag-s", settings.lens.lag_s, "of the lenses")->capture_default_str();
@@ -143,6 +144,9 @@ int main(int argc, char** argv) {
   app.add_option("--height", settings.optics.height_px, "of the projector's pictures")->capture_default_str();
   app.add_option("command", command, "what to run")->required();
   CLI11_PARSE(app, argc, argv);
+  if (!settings.photodiodes.board_link.empty()) {
+    settings.optics.regions = focalstage::rig_emulator::Photodiodes::regions(settings.photodiodes);
+  }
   prefer_this_process(true);
   auto generator = focalstage::mcc1208_emulator::Emulator::create();
   if (!generator) return run_under_wrapper(argv);

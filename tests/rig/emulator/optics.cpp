@@ -121,7 +121,7 @@ void Optics::take(int connection, std::uint32_t type, std::span<const std::uint8
     case WIRE_FRAME: {
       const auto frame = part_of<wire_frame>(body);
       if (!frame) break;
-      waiting_.push_back(frame->black != 0 ? WaitingPicture{true, 0}
+      waiting_.push_back(frame->black != 0 ? WaitingPicture{.black = true}
                                            : picture_of(frame->exposure, body.subspan(sizeof *frame)));
       break;
     }
@@ -137,12 +137,27 @@ void Optics::take(int connection, std::uint32_t type, std::span<const std::uint8
   }
 }
 
+double Optics::level_in(const PixelRectangle& region, std::span<const std::uint8_t> pixels) const {
+  double sum = 0.0;
+  for (int y = region.top; y < region.top + region.height; ++y) {
+    for (int x = region.left; x < region.left + region.width; ++x) {
+      sum += pixels[static_cast<std::size_t>(y) * settings_.width_px + static_cast<std::size_t>(x)];
+    }
+  }
+  return sum / (255.0 * region.width * region.height);
+}
+
 /// Most pictures are those of the period before, and comparing is cheaper than summing up.
 WaitingPicture Optics::picture_of(std::uint32_t exposure, std::span<const std::uint8_t> pixels) {
   Seen& seen = seen_[exposure];
   if (seen.pixels.size() != pixels.size() || std::memcmp(seen.pixels.data(), pixels.data(), pixels.size()) != 0) {
     seen.pixels.assign(pixels.begin(), pixels.end());
     seen.picture.black = std::ranges::all_of(pixels, [](std::uint8_t code) { return code == 0; });
+    if (!settings_.regions.empty())
+      seen.picture.mean_level =
+          level_in({0, 0, static_cast<int>(settings_.width_px), static_cast<int>(settings_.height_px)}, pixels);
+    seen.picture.levels.clear();
+    for (const PixelRectangle& region : settings_.regions) seen.picture.levels.push_back(level_in(region, pixels));
     seen.picture.crc = static_cast<std::uint32_t>(::crc32(0, pixels.data(), static_cast<uInt>(pixels.size())));
   }
   return seen.picture;
@@ -167,12 +182,14 @@ void Optics::lose_next_trigger() {
 std::optional<Begun> Optics::trigger(double device_s) {
   const std::lock_guard lock(mutex_);
   if (!plugged_in_ || !running_ || std::exchange(lose_next_, false)) return std::nullopt;
-  Begun begun{device_s + settings_.latency_s, exposure_s_, true, 0};
+  Begun begun{.start_s = device_s + settings_.latency_s, .exposure_s = exposure_s_, .dark = true};
   if (waiting_.empty()) {
     ++missed_;
   } else {
     begun.dark = waiting_.front().black;
     begun.crc = waiting_.front().crc;
+    begun.mean_level = waiting_.front().mean_level;
+    begun.levels = std::move(waiting_.front().levels);
     waiting_.pop_front();
     ++shown_;
   }

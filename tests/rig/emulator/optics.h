@@ -13,10 +13,19 @@
 
 namespace focalstage::rig_emulator {
 
+struct PixelRectangle {
+  int left = 0;
+  int top = 0;
+  int width = 0;
+  int height = 0;
+};
+
 /// A picture that waits for its trigger.
 struct WaitingPicture {
   bool black = false;
-  std::uint32_t crc = 0;  ///< CRC-32 of its bytes, as zlib's
+  std::uint32_t crc = 0;       ///< CRC-32 of its bytes, as zlib's
+  double mean_level = 0.0;     ///< of all its pixels, 0 to 1
+  std::vector<double> levels{};  ///< of those of each region
 };
 
 /// Light that began.
@@ -25,6 +34,8 @@ struct Begun {
   double exposure_s = 0.0;
   bool dark = false;  ///< no picture was there, or a black one
   std::uint32_t crc = 0;
+  double mean_level = 0.0;
+  std::vector<double> levels{};
 };
 
 struct OpticsSettings {
@@ -33,6 +44,7 @@ struct OpticsSettings {
   std::uint32_t height_px = 768;
   std::uint32_t most_periods_ahead = 6;
   double latency_s = 0.00015;
+  std::vector<PixelRectangle> regions;  ///< whose light somebody wants to know
 };
 
 /// A triggered projector's light engine at the other end of the plugin `wire`: it keeps the frames that come and shows
@@ -61,6 +73,7 @@ class Optics {
   void talk(int connection, const std::stop_token& stop);
   void take(int connection, std::uint32_t type, std::span<const std::uint8_t> body);
   void tell_counts(double device_s, double monotonic_s);
+  double level_in(const PixelRectangle& region, std::span<const std::uint8_t> pixels) const;
   WaitingPicture picture_of(std::uint32_t exposure, std::span<const std::uint8_t> pixels);
   void forget();
 

@@ -35,6 +35,11 @@ Room::Room(const RoomSettings& settings, std::unique_ptr<mcc1208_emulator::Emula
     std::perror(settings.report.c_str());
     std::abort();
   }
+  if (!settings.photodiodes.board_link.empty()) {
+    photodiodes_.emplace(settings.photodiodes, [this](Side eye, double time_s) {
+      return BeforeDiode{lens_.power_d(time_s), shutter_[eye].at(time_s)};
+    });
+  }
   board_.set_link(settings.board_link);
   generator_->on_output([this](const mcc1208_emulator::Output& output) { hear(output); });
   generator_->plug_in();
@@ -48,6 +53,7 @@ void Room::advance_to(double time_s, double monotonic_s) {
   generator_->advance_to(time_s);
   board_.run_until(cycles(time_s));
   heed_pins();
+  if (photodiodes_) photodiodes_->advance_to(time_s);
   time_s_ = time_s;
   optics_.advance_to(time_s, monotonic_s);
   end_exposures();
@@ -57,7 +63,9 @@ void Room::hear(const mcc1208_emulator::Output& output) {
   set_current(output.time_s, output.codes[0]);
   const bool rises = sync_code_ < logic_high && output.codes[1] >= logic_high;
   sync_code_ = output.codes[1];
-  if (rises) board_.chip().edge_at(cycles(output.time_s));
+  if (!rises) return;
+  board_.chip().edge_at(cycles(output.time_s));
+  if (photodiodes_) photodiodes_->edge_at(output.time_s);
 }
 
 void Room::set_current(double time_s, int code) {
@@ -84,7 +92,10 @@ void Room::heed_pins() {
   move(Side::right, chip.right);
   for (const uno_emulator::PinChange& change : chip.trigger) {
     if (!change.high) continue;
-    if (const auto begun = optics_.trigger(seconds(change.at))) lit_.push_back(*begun);
+    const auto begun = optics_.trigger(seconds(change.at));
+    if (!begun) continue;
+    lit_.push_back(*begun);
+    if (photodiodes_) photodiodes_->lit(*begun);
   }
   chip.forget();
 }

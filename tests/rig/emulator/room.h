@@ -12,6 +12,7 @@
 #include "tests/devices/uno/emulator/emulator.h"
 #include "tests/rig/emulator/lens_plant.h"
 #include "tests/rig/emulator/optics.h"
+#include "tests/rig/emulator/photodiodes.h"
 
 namespace focalstage::rig_emulator {
 
@@ -20,6 +21,7 @@ struct RoomSettings {
   double board_clock_ppm = 0.0;  ///< by which the board's resonator is fast
   OpticsSettings optics;
   LensPlantSettings lens;
+  PhotodiodesSettings photodiodes;
   double amperes_per_volt = 0.12;  ///< of the amplifier
   int zero_code = 2048;
   int enable_bit = 0;  ///< of DIO port A; low: no current
@@ -64,6 +66,7 @@ class Room {
   Optics optics_;
   LensPlant lens_;
   PerEye<SimShutter> shutter_;
+  std::optional<Photodiodes> photodiodes_;
   PerEye<bool> closed_{true, true};
   int sync_code_ = 0;
   double edge_s_ = 0.0;
