@@ -90,6 +90,7 @@ class PropertyRows {
 // Rows that several kinds share.
 void add_pose_rows(PropertyRows& rows);      ///< position and rotation at the frame in view
 void add_size_rows(PropertyRows& rows);      ///< scale and extent
+void add_image_rows(PropertyRows& rows);     ///< of an appearance that is a picture
 void add_mesh_rows(PropertyRows& rows);      ///< kind, parameters, file
 void add_process_rows(PropertyRows& rows);   ///< what is done to the mesh
 void add_movement_rows(PropertyRows& rows);  ///< track and keys
