@@ -76,7 +76,9 @@ focalstage_room(editor/samples  USES io/files core/base)
 focalstage_room(editor/pipeline USES io/models io/project io/assets io/show core/check core/reference core/compile core/percept core/retina
                                      core/schedule)
 focalstage_room(editor/trials   USES editor/pipeline io/study io/protocol io/show io/project core/study)
-focalstage_room(editor/cli      USES editor/samples editor/pipeline editor/trials io/study io/models io/project io/assets io/show io/export io/plot
+focalstage_room(editor/viewer   USES editor/trials editor/pipeline io/study io/protocol io/show io/project io/assets io/files core/reference core/retina
+                                     core/optics core/stage core/study core/scene core/base)
+focalstage_room(editor/cli      USES editor/samples editor/pipeline editor/trials editor/viewer io/study io/models io/project io/assets io/show io/export io/plot
                                      io/credentials io/protocol io/image core/calibrate core/rig_measure core/check core/reference core/sensitivity core/compile core/percept
                                      core/retina core/schedule
                                 PRIVATE_LIBS CLI11::CLI11)

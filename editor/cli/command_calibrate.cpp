@@ -1,7 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <utility>
 
 #include "editor/cli/calibrate_actions.h"
+#include "editor/cli/command_calibrate_viewer.h"
 #include "editor/cli/command_list.h"
 
 namespace focalstage {
@@ -75,10 +77,10 @@ void declare_verify(CLI::App& app, CalibrateOptions& options) {
 
 Command::Run declare_calibrate(CLI::App& app) {
   const auto options = std::make_shared<CalibrateOptions>();
-  const auto action = std::make_shared<Action>(nullptr);
+  const auto chosen = std::make_shared<Command::Run>();
   const auto add = [&](const char* name, const char* help, Action run) {
     CLI::App* below = app.add_subcommand(name, help);
-    below->callback([action, run] { *action = run; });
+    below->callback([options, chosen, run] { *chosen = [options, run] { return run(*options); }; });
     return below;
   };
   declare_points(*add("points", "Pose, and lens if asked, from picked points.", run_calibrate_points), *options);
@@ -88,9 +90,10 @@ Command::Run declare_calibrate(CLI::App& app) {
                *options);
   declare_verify(*add("verify", "Draw the model's edges as the projector must show them.", run_calibrate_verify),
                  *options);
+  declare_calibrate_viewer(app, [chosen](Command::Run run) { *chosen = std::move(run); });
   app.require_subcommand(1);
   app.footer("docs/calibration.md says how points are picked and what is refused.");
-  return [options, action] { return (*action)(*options); };
+  return [chosen] { return (*chosen)(); };
 }
 
 }  // namespace focalstage

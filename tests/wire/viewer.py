@@ -1,0 +1,151 @@
+#!/usr/bin/python3
+"""focalstage calibrate viewer: simulated eyes are found through a simulated rig, and what is wrong is said."""
+
+import json
+import random
+import signal
+import subprocess
+import time
+
+from harness import DONE, ENVIRONMENT, FINDINGS, FOCALSTAGE, INVALID, USAGE, expect, focalstage, folder, free_port, main, \
+    rig, succeed, write_project
+
+
+def room(**changes):
+    project = {
+        "focalstage": 1,
+        "name": "Room",
+        "glasses": {"lens_to_pupil_mm": 15},
+        "projectors": [{"name": "main", "width_px": 1024, "height_px": 768, "frames_per_second": 2000, "bits": 8,
+                        "latency_ms": 0.15, "fx_px": 1500, "fy_px": 1500, "cx_px": 512, "cy_px": 384,
+                        "position_m": [0, 0, 0.4], "rotation_xyzw": [0, 0, 0, 1]}],
+        "slices": {"powers_d": [-1, 0, 1]},
+        "surfaces": [{"name": "wall", "mesh": {"primitive": "plane", "size_m": [1, 1]}, "position_m": [0, 0, -0.515]}],
+        "objects": [{"name": "card", "mesh": {"primitive": "plane", "size_m": [0.1, 0.1]}, "position_m": [0, 0, -0.515]}],
+    }
+    project.update(changes)
+    return project
+
+
+def ask(action, *arguments, **more):
+    return focalstage("calibrate", "viewer", action, *arguments, **more)
+
+
+def adopted(at, address):
+    file = write_project(at / "room", room())
+    succeed("adopt-rig", at / "room", "--to", address)
+    return file
+
+
+def expect_dark(address):
+    state = succeed("rig", "state", "--to", address, "--json").json()
+    assert state["state"] == "ready", state  # dark, not latched
+
+
+def test_a_distance_from_lens_to_pupil_is_found():
+    with folder() as at, rig(at) as address:
+        adopted(at, address)
+        for true_mm, eye in ((11.5, "left"), (21.0, "right")):
+            ran = ask("lens-to-pupil", at / "room", "--to", address, "--eye", eye, "--scripted", true_mm, "--json", "-o",
+                      at / eye)
+            assert ran.status == DONE, ran
+            found = ran.json()
+            assert found["answers"] == 40 and found["observer"] == "scripted" and found["applied"], found
+            assert abs(found["lens_to_pupil_mm"] - true_mm) < 2.5 * found["uncertainty_mm"] + 0.2, found
+            assert found["uncertainty_mm"] < 1, found
+            project = json.loads((at / eye / f"{eye}.focal").read_text())
+            assert abs(project["glasses"]["lens_to_pupil_mm"] - found["lens_to_pupil_mm"]) < 0.006, project["glasses"]
+            assert [o["name"] for o in project["objects"]] == ["card"], "the pattern stays out of the project"
+        expect_dark(address)
+
+
+def test_an_interpupillary_distance_is_found():
+    with folder() as at, rig(at) as address:
+        file = adopted(at, address)
+        ran = ask("interpupillary", at / "room", "--to", address, "--thread-m", 0.25, "--scripted", 58.3, "--json")
+        assert ran.status == DONE, ran
+        found = ran.json()
+        assert abs(found["interpupillary_mm"] - 58.3) < 2.5 * found["answers_uncertainty_mm"] + 0.1, found
+        assert 0.5 < found["thread_uncertainty_mm"] < 0.8 and found["uncertainty_mm"] < 1, found
+        assert abs(json.loads(file.read_text())["viewer"]["interpupillary_mm"] - found["interpupillary_mm"]) < 0.006
+        vague = ("--to", address, "--thread-m", "0.25", "--thread-uncertainty-mm", "5", "--scripted", "58", "--questions", "12")
+        expect(ask("interpupillary", at / "room", *vague), INVALID, "viewer.uncertain")
+        expect(ask("interpupillary", at / "room", "--to", address, "--thread-m", "0.6", "--scripted", "58"), INVALID,
+               "viewer.thread")
+        expect(ask("interpupillary", at / "room", "--to", address), USAGE, "--thread-m")
+        expect_dark(address)
+
+
+def test_a_lens_that_is_off_is_found():
+    with folder() as at, rig(at) as address:
+        file = adopted(at, address)
+        before = file.read_text()
+        for error_d, status in ((0.2, FINDINGS), (0.0, DONE)):
+            ran = ask("lens-power", at / "room", "--to", address, "--focus-m", 0.45, "--focus-uncertainty-d", 0.02,
+                      "--scripted", error_d, "--json")
+            assert ran.status == status, ran
+            found = ran.json()
+            assert abs(found["power_d"] - (2 - 1 / 0.45)) < 1e-3, found
+            assert abs(found["error_d"] - error_d) < 2.5 * found["uncertainty_d"], found
+            assert found["differs"] == (status == FINDINGS) and found["uncertainty_d"] < 0.08, found
+        expect(ask("lens-power", at / "room", "--to", address, "--focus-m", "1", "--scripted", "0"), INVALID,
+               "viewer.unreachable", "1.00 D")
+        assert file.read_text() == before, "a check changes nothing"
+        expect_dark(address)
+
+
+def test_killed_and_gone_on():
+    """Killed at a random moment, a test goes on with the answers there are and ends as one that was not."""
+    seed = random.SystemRandom().randrange(1 << 32)
+    dice = random.Random(seed)
+    with folder() as at:
+        with rig(at) as address:
+            adopted(at, address)
+            arguments = ("--scripted", "17", "--dry-run", "--json")
+            whole = ask("lens-to-pupil", at / "room", "--to", address, *arguments).json()
+        answers = at / "answers"
+        for attempt in range(2):
+            store = at / str(attempt)
+            store.mkdir()
+            with rig(store) as address:  # a rig of its own: no lease of the one before to wait for
+                process = subprocess.Popen([FOCALSTAGE, "calibrate", "viewer", "lens-to-pupil", str(at / "room"), "--to",
+                                            address, "--answers", str(answers), *arguments], stdout=subprocess.DEVNULL)
+                rows = answers.read_text().count("\n") if answers.exists() else 1
+                wanted = rows + dice.randrange(1, 12)
+                while process.poll() is None and (not answers.exists() or answers.read_text().count("\n") < wanted):
+                    time.sleep(0.002)
+                process.send_signal(signal.SIGKILL)
+                process.wait()
+        kept = answers.read_text()
+        assert 3 <= kept.count("\n") < 41, f"seed {seed}: {kept}"
+        with rig(at) as address:
+            ran = ask("lens-to-pupil", at / "room", "--to", address, "--answers", answers, *arguments)
+            assert ran.status == DONE and ran.json() == whole, f"seed {seed}: {ran}, wanted {whole}"
+            assert answers.read_text().startswith(kept[: kept.rindex("\n") + 1]), f"seed {seed}: answers were lost"
+            expect(ask("lens-to-pupil", at / "room", "--to", address, "--eye", "right", "--answers", answers, *arguments),
+                   INVALID, "viewer.answers")
+
+
+def test_what_is_not_good_enough_changes_nothing():
+    with folder() as at, rig(at) as address:
+        file = adopted(at, address)
+        before = file.read_text()
+        short = ("--to", address, "--questions", "6")
+        expect(ask("lens-to-pupil", at / "room", *short, "--scripted", "18"), INVALID, "viewer.", "mm")
+        expect(ask("lens-to-pupil", at / "room", *short, stdin="q"), INVALID, "viewer.given-up")
+        expect(ask("lens-to-pupil", at / "room", *short, stdin="udu"), ENVIRONMENT, "trials.input-ended", "--answers")
+        expect(ask("lens-to-pupil", at / "room", *short, stdin="u" * 6), INVALID, "viewer.outside")
+        expect(ask("interpupillary", at / "room", *short, "--thread-m", "0.25", stdin="l" * 12), INVALID, "viewer.outside")
+        expect(ask("lens-to-pupil", at / "room", "--to", f"127.0.0.1:{free_port()}", "--scripted", "18"), ENVIRONMENT, "rig.")
+        expect(ask("lens-to-pupil", at / "room", "--eye", "third"), USAGE, "eye")
+        assert file.read_text() == before
+        write_project(at / "narrow", room(slices={"powers_d": [-0.2, 0, 0.2]}))
+        expect(ask("lens-to-pupil", at / "narrow", "--to", address, "--scripted", "18"), INVALID, "viewer.slices")
+        write_project(at / "void", room(surfaces=[]))
+        for action in (("lens-to-pupil",), ("lens-power", "--focus-m", "0.5"), ("interpupillary", "--thread-m", "0.25")):
+            expect(ask(*action, at / "void", "--to", address), INVALID, "viewer.surface")
+
+
+if __name__ == "__main__":
+    main([test_a_distance_from_lens_to_pupil_is_found, test_an_interpupillary_distance_is_found,
+          test_a_lens_that_is_off_is_found, test_killed_and_gone_on, test_what_is_not_good_enough_changes_nothing])
