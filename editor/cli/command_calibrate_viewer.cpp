@@ -91,6 +91,24 @@ void declare_interpupillary(CLI::App& app, ViewerOptions& options) {
              "RAD");
 }
 
+void declare_tracker_offset(CLI::App& app, TrackerOffsetOptions& options) {
+  app.add_option("FILE", options.sightings, "spots seen right behind a mark, and where the glasses' body was")
+      ->required()
+      ->type_name("SIGHTINGS.csv");
+  app.add_option("--tracker-pose", options.tracker_pose, "where the tracker stands, as track-align prints it")
+      ->expected(7)
+      ->type_name("X Y Z QX QY QZ QW");
+  app.add_option("--body-rotation", options.body_rotation, "how the viewer is turned in the body, as far as is known")
+      ->expected(4)
+      ->type_name("QX QY QZ QW");
+  app.add_option("--limit-mm", options.limit_mm, "refuse where sightings pass the eyes farther than so")
+      ->check(CLI::PositiveNumber.name(""))
+      ->type_name("MM")
+      ->capture_default_str();
+  app.add_flag("--despite-residual", options.despite_residual, "take it all the same");
+  app.add_flag("--json", options.json, "one JSON object instead of words");
+}
+
 }  // namespace
 
 void declare_calibrate_viewer(CLI::App& calibrate, const std::function<void(Command::Run)>& choose) {
@@ -108,6 +126,10 @@ void declare_calibrate_viewer(CLI::App& calibrate, const std::function<void(Comm
       run_calibrate_lens_power);
   add("interpupillary", "How far the pupils are apart, by lines behind a thread.", declare_interpupillary,
       run_calibrate_interpupillary);
+  const auto options = std::make_shared<TrackerOffsetOptions>();
+  CLI::App* offset = viewer->add_subcommand("tracker-offset", "Where the eyes are in the axes of the tracked glasses.");
+  declare_tracker_offset(*offset, *options);
+  offset->callback([choose, options] { choose([options] { return run_calibrate_tracker_offset(*options); }); });
   viewer->require_subcommand(1);
   viewer->footer("docs/viewer-calibration.md says what to prepare and what the values are worth.");
 }

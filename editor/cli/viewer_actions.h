@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "editor/cli/command.h"
 
@@ -29,8 +30,19 @@ struct ViewerOptions {
   bool json = false;
 };
 
+/// What `focalstage calibrate viewer tracker-offset` is asked for.
+struct TrackerOffsetOptions {
+  std::string sightings;
+  std::vector<double> tracker_pose{0, 0, 0, 0, 0, 0, 1};  ///< world from tracker: x y z, quaternion x y z w
+  std::vector<double> body_rotation{0, 0, 0, 1};          ///< body from viewer, as far as it is known
+  double limit_mm = 2.0;
+  bool despite_residual = false;
+  bool json = false;
+};
+
 ExitStatus run_calibrate_lens_to_pupil(const ViewerOptions& options);
 ExitStatus run_calibrate_lens_power(const ViewerOptions& options);
 ExitStatus run_calibrate_interpupillary(const ViewerOptions& options);
+ExitStatus run_calibrate_tracker_offset(const TrackerOffsetOptions& options);
 
 }  // namespace focalstage

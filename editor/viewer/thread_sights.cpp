@@ -7,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "core/optics/eye_rotation.h"
 #include "core/stage/stage.h"
 
 namespace focalstage {

@@ -17,11 +17,6 @@ namespace focalstage {
 // looks at the thread turns its pupil onto that way. Eyes that look straight ahead have their pupils as far apart as
 // their centres: that is the interpupillary distance. Lines are shown at 0 D, where the lens turns no ray.
 
-/// How far behind its pupil an eye turns, and how well that is known of a person: centres of rotation are found 13 to
-/// 15 mm behind the cornea, the pupil is seen 3 mm behind it.
-inline constexpr double pupil_to_centre_m = 0.0105;
-inline constexpr double pupil_to_centre_uncertainty_m = 0.001;
-
 /// The lines as a project that any rig can show: frame k has the line behind the thread for the k-th place of an eye.
 struct ThreadSights {
   Source source;

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""focalstage calibrate viewer: simulated eyes are found through a simulated rig, and what is wrong is said."""
+"""focalstage calibrate viewer: simulated eyes are found, most through a simulated rig, and what is wrong is said."""
 
 import json
+import math
 import random
 import signal
 import subprocess
@@ -126,6 +127,52 @@ def test_killed_and_gone_on():
                    INVALID, "viewer.answers")
 
 
+def turned(q, v):
+    """v turned by the quaternion x y z w."""
+    x, y, z, w = q
+    a, b, c = (y * v[2] - z * v[1], z * v[0] - x * v[2], x * v[1] - y * v[0])
+    return [v[0] + 2 * (w * a + y * c - z * b), v[1] + 2 * (w * b + z * a - x * c), v[2] + 2 * (w * c + x * b - y * a)]
+
+
+def sightings(path, wrong_mm=0.0, turn_rad=0.3, eyes=("left", "right")):
+    """A head that turns about its neck; the spot is where the way from eye to mark meets the wall z = -0.7."""
+    lines = ["name,eye,body_x_m,body_y_m,body_z_m,body_qx,body_qy,body_qz,body_qw,mark_x_m,mark_y_m,mark_z_m,"
+             "spot_x_m,spot_y_m,spot_z_m"]
+    mark = [0.01, 0.02, -0.3]
+    for i in range(12):
+        eye = eyes[i % len(eyes)]
+        axis = (math.cos(2.4 * i), math.sin(2.4 * i))
+        q = [axis[0] * math.sin(turn_rad / 2), axis[1] * math.sin(turn_rad / 2), 0, math.cos(turn_rad / 2)]
+        body = [0.01 * math.sin(i), 0.01 * math.cos(3 * i), 0.05]
+        centre = [a + b for a, b in zip(body, turned(q, [-0.0315 if eye == "left" else 0.0315, -0.04, 0.03]))]
+        t = (-0.7 - centre[2]) / (mark[2] - centre[2])
+        spot = [c + t * (m - c) for c, m in zip(centre, mark)]
+        spot[0] += wrong_mm * 1e-3 if i == 7 else 0
+        lines.append(",".join(["head " + str(i + 1), eye, *(f"{n:.9f}" for n in [*body, *q, *mark, *spot])]))
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def test_eyes_are_found_on_the_tracked_glasses():
+    with folder() as at:
+        command = ("calibrate", "viewer", "tracker-offset")
+        found = succeed(*command, sightings(at / "good.csv"), "--json").json()
+        # The pupils' midpoint stands 10.5 mm before the centres' one.
+        for got, wanted in zip(found["body_from_thing"]["position_m"], (0, -0.04, 0.0195)):
+            assert abs(got - wanted) < 1e-6, found
+        assert abs(found["interpupillary_mm"] - 63) < 1e-3 and found["rms_mm"] < 1e-3, found
+        words = succeed(*command, at / "good.csv").out
+        assert "body_from_thing" in words and "uncertain by" in words, words
+        expect(focalstage(*command, sightings(at / "wrong.csv", 40)), INVALID, "sightings.limit", "8 (head 8)", "mm")
+        assert focalstage(*command, at / "wrong.csv", "--despite-residual").status == DONE
+        expect(focalstage(*command, sightings(at / "still.csv", 0, 0.01)), INVALID, "sightings.parallel")
+        expect(focalstage(*command, sightings(at / "left.csv", eyes=("left",))), INVALID, "sightings.few", "right")
+        expect(focalstage(*command, at / "good.csv", "--body-rotation", 0, 0, 0, 0), INVALID, "--body-rotation")
+        expect(focalstage(*command, at / "none.csv"), INVALID, "none.csv")
+        (at / "torn.csv").write_text((at / "good.csv").read_text()[:-30] + "\n")
+        expect(focalstage(*command, at / "torn.csv"), INVALID, "sightings.file", "line 13")
+
+
 def test_what_is_not_good_enough_changes_nothing():
     with folder() as at, rig(at) as address:
         file = adopted(at, address)
@@ -148,4 +195,5 @@ def test_what_is_not_good_enough_changes_nothing():
 
 if __name__ == "__main__":
     main([test_a_distance_from_lens_to_pupil_is_found, test_an_interpupillary_distance_is_found,
-          test_a_lens_that_is_off_is_found, test_killed_and_gone_on, test_what_is_not_good_enough_changes_nothing])
+          test_a_lens_that_is_off_is_found, test_killed_and_gone_on,
+          test_eyes_are_found_on_the_tracked_glasses, test_what_is_not_good_enough_changes_nothing])
