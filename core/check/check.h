@@ -26,9 +26,12 @@ struct MeshState {
   std::size_t index = 0;
   std::vector<MeshFlaw> flaws;
   glm::dvec3 size_m{0.0};  ///< of the box around it, along the room's axes
+  /// Where a picture or pattern lies on a mesh without texture coordinates: those that would show all of it.
+  std::optional<UvPlaneStep> lacks_uv{};
 };
 
-/// Of the things whose mesh comes from a file, as they stand after their steps. Primitives are as they are meant to be.
+/// Of the things whose mesh comes from a file, as they stand after their steps. Primitives are as they are meant to be,
+/// unless a picture lies on one that has no place for it.
 std::vector<MeshState> mesh_states(const Project& project, const Stage& stage);
 
 /// What is wrong with them, each with the step, or the scale, that mends it.

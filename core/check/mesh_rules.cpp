@@ -4,6 +4,7 @@
 #include "core/check/rules.h"
 #include "core/check/words.h"
 #include "core/scene/process_codec.h"
+#include "core/stage/texture_maps.h"
 #include "core/stage/world_bounds.h"
 
 namespace focalstage {
@@ -39,12 +40,27 @@ void add_flaw(std::vector<MeshFlaw>& flaws, const MeshFlaw& flaw) {
   same->count = sum;
 }
 
+/// A picture or pattern that the mesh has no place for is not seen.
+bool lacks_uv(const Drawable& drawable) {
+  const Finish& finish = drawable.finish;
+  const bool pictured =
+      finish.kind == Finish::Kind::checker || (finish.kind == Finish::Kind::textured && finish.texture);
+  return pictured && drawable.mesh->uvs.empty();
+}
+
 template <class Things, class Staged>
-void add_things(const std::string& list, const Things& things, const std::vector<Staged>& staged,
-                std::vector<MeshState>& all) {
+void add_things(const std::string& list, const Things& things, const std::vector<Staged>& staged, const Stage& stage,
+                Rigid Staged::*world_from_thing, std::vector<MeshState>& all) {
   for (const Staged& thing : staged) {
-    if (!std::holds_alternative<FileMesh>(things[thing.index].mesh.shape)) continue;
-    MeshState found{list, thing.index, {}, world_bounds(thing.drawables).size_m()};
+    MeshState found{list, thing.index, {}, {}};
+    if (std::ranges::any_of(thing.drawables, lacks_uv)) {
+      found.lacks_uv = facing_plane(thing.drawables, thing.*world_from_thing, stage.world_from_viewer.position_m);
+    }
+    if (!std::holds_alternative<FileMesh>(things[thing.index].mesh.shape)) {
+      if (found.lacks_uv) all.push_back(std::move(found));
+      continue;
+    }
+    found.size_m = world_bounds(thing.drawables).size_m();
     for (const Drawable& drawable : thing.drawables) {
       for (const MeshFlaw& flaw : flaws_once(drawable.mesh)) add_flaw(found.flaws, flaw);
     }
@@ -71,6 +87,18 @@ std::optional<Finding> size_finding(const Project& project, const MeshState& thi
                  {set_edit(thing.list, name_of(project, thing), "scale", Value(scale * factor))}};
 }
 
+std::optional<Finding> uv_finding(const Project& project, const MeshState& thing) {
+  if (!thing.lacks_uv) return std::nullopt;
+  const char* what = thing.list == "surfaces" ? "albedo" : "appearance";
+  return Finding{Severity::warning,
+                 "mesh.no-uv",
+                 "/" + thing.list + "/" + std::to_string(thing.index) + "/" + what,
+                 "the mesh of " + name_of(project, thing) +
+                     " has no texture coordinates: nothing says where on it its picture lies",
+                 {},
+                 step_edit(project, thing, *thing.lacks_uv)};
+}
+
 /// What may be meant: it is told, and no more.
 bool may_be_meant(const std::string& code) {
   return code == "mesh.holes" || code == "mesh.bits" || code == "mesh.no-area";
@@ -80,8 +108,8 @@ bool may_be_meant(const std::string& code) {
 
 std::vector<MeshState> mesh_states(const Project& project, const Stage& stage) {
   std::vector<MeshState> all;
-  add_things("surfaces", project.surfaces, stage.surfaces, all);
-  add_things("objects", project.objects, stage.objects, all);
+  add_things("surfaces", project.surfaces, stage.surfaces, stage, &StagedSurface::world_from_surface, all);
+  add_things("objects", project.objects, stage.objects, stage, &StagedObject::world_from_object, all);
   return all;
 }
 
@@ -89,6 +117,7 @@ std::vector<Finding> mesh_findings(const Project& project, const std::vector<Mes
   std::vector<Finding> findings;
   for (const MeshState& thing : things) {
     if (auto size = size_finding(project, thing)) findings.push_back(*std::move(size));
+    if (auto unmapped = uv_finding(project, thing)) findings.push_back(*std::move(unmapped));
     for (const MeshFlaw& flaw : thing.flaws) {
       findings.push_back({may_be_meant(flaw.code) ? Severity::info : Severity::warning, flaw.code,
                           "/" + thing.list + "/" + std::to_string(thing.index) + "/mesh",

@@ -13,14 +13,21 @@ struct ProcessKey {
   std::shared_ptr<const Mesh> mesh;
   std::vector<ProcessStep> steps;
   double scale = 1.0;
+  glm::dmat4 thing_from_mesh{1.0};
 
   bool operator==(const ProcessKey&) const = default;
 };
 
 constexpr std::size_t most_kept = 32;
 
+/// Whether it matters where the mesh lies in its file.
+bool has_place(const ProcessStep& step) {
+  return std::holds_alternative<UvPlaneStep>(step.kind) || std::holds_alternative<UvProjectorStep>(step.kind);
+}
+
 /// Without a length among the steps the scale changes nothing.
 bool has_length(const ProcessStep& step) {
+  if (has_place(step)) return true;
   if (const auto* weld = std::get_if<WeldStep>(&step.kind)) return weld->tolerance_mm > 0.0;
   if (const auto* fill = std::get_if<FillHolesStep>(&step.kind)) return fill->longest_mm.has_value();
   const auto* decimate = std::get_if<DecimateStep>(&step.kind);
@@ -30,13 +37,15 @@ bool has_length(const ProcessStep& step) {
 }  // namespace
 
 Result<std::shared_ptr<const Mesh>> processed_once(const std::shared_ptr<const Mesh>& mesh,
-                                                   const std::vector<ProcessStep>& steps, double scale) {
+                                                   const std::vector<ProcessStep>& steps, double scale,
+                                                   const glm::dmat4& thing_from_mesh) {
   using Made = Result<std::shared_ptr<const Mesh>>;
   if (steps.empty()) return mesh;
   static MadeOnce<ProcessKey, Made> kept(most_kept);
   if (std::ranges::none_of(steps, has_length)) scale = 1.0;
-  return kept.find_or_make({mesh, steps, scale}, [&]() -> Made {
-    Result<Mesh> made = processed(*mesh, steps, scale);
+  const glm::dmat4 place = std::ranges::any_of(steps, has_place) ? thing_from_mesh : glm::dmat4(1.0);
+  return kept.find_or_make({mesh, steps, scale, place}, [&]() -> Made {
+    Result<Mesh> made = processed(*mesh, steps, scale, place);
     if (!made) return made.fault();
     return std::make_shared<const Mesh>(*std::move(made));
   });

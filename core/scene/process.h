@@ -4,6 +4,9 @@
 #include <variant>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
+#include "core/base/rigid.h"
 #include "core/scene/value.h"
 
 namespace focalstage {
@@ -64,8 +67,30 @@ struct SubdivideStep {
   bool operator==(const SubdivideStep&) const = default;
 };
 
-using ProcessKind = std::variant<WeldStep, CleanStep, DropFinsStep, DropBitsStep, FixWindingStep, FlipStep,
-                                 FillHolesStep, KeepPartStep, DecimateStep, SmoothStep, SubdivideStep>;
+/// New texture coordinates: the picture lies on a plane and goes straight through the mesh. It stands as a primitive
+/// plane does, along the thing's own axes and in metres of the room: u along its +X, v along +Y.
+struct UvPlaneStep {
+  Rigid pose;                        ///< where the middle of the picture is
+  std::optional<glm::dvec2> size_m;  ///< of the picture; without: what the mesh fills of the plane
+  bool operator==(const UvPlaneStep&) const = default;
+};
+/// New texture coordinates: each place has the pixel with which a projector without distortion lights it. The lens is
+/// that of a `Projector`, the pose in the thing's own axes and metres of the room, so that the picture stays on the
+/// thing.
+struct UvProjectorStep {
+  Rigid pose;
+  int width_px = 1024;
+  int height_px = 768;
+  double fx_px = 1400.0;
+  double fy_px = 1400.0;
+  double cx_px = 512.0;
+  double cy_px = 384.0;
+  bool operator==(const UvProjectorStep&) const = default;
+};
+
+using ProcessKind =
+    std::variant<WeldStep, CleanStep, DropFinsStep, DropBitsStep, FixWindingStep, FlipStep, FillHolesStep, KeepPartStep,
+                 DecimateStep, SmoothStep, SubdivideStep, UvPlaneStep, UvProjectorStep>;
 
 struct ProcessStep {
   ProcessKind kind;

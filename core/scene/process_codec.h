@@ -85,6 +85,29 @@ struct Table<SubdivideStep> {
 };
 
 template <>
+struct Table<UvPlaneStep> {
+  static constexpr std::string_view step = "uv-plane";
+  static constexpr auto fields =
+      std::make_tuple(field("position_m", at(&UvPlaneStep::pose, &Rigid::position_m), Presence::always, anywhere_m),
+                      field("rotation_xyzw", at(&UvPlaneStep::pose, &Rigid::rotation), Presence::always),
+                      field("size_m", at(&UvPlaneStep::size_m), Presence::optional, length_m));
+};
+template <>
+struct Table<UvProjectorStep> {
+  static constexpr std::string_view step = "uv-projector";
+  static constexpr Rule pixels{.low = 1, .high = 65536};
+  static constexpr auto fields =
+      std::make_tuple(field("position_m", at(&UvProjectorStep::pose, &Rigid::position_m), Presence::always, anywhere_m),
+                      field("rotation_xyzw", at(&UvProjectorStep::pose, &Rigid::rotation), Presence::always),
+                      field("width_px", at(&UvProjectorStep::width_px), Presence::always, pixels),
+                      field("height_px", at(&UvProjectorStep::height_px), Presence::always, pixels),
+                      field("fx_px", at(&UvProjectorStep::fx_px), Presence::always, length_px),
+                      field("fy_px", at(&UvProjectorStep::fy_px), Presence::always, length_px),
+                      field("cx_px", at(&UvProjectorStep::cx_px), Presence::always, {.low = -1e6, .high = 1e6}),
+                      field("cy_px", at(&UvProjectorStep::cy_px), Presence::always, {.low = -1e6, .high = 1e6}));
+};
+
+template <>
 struct Codec<ProcessStep> {
   static bool read(Reading& reading, const Value& value, ProcessStep& out, const Rule& rule);
   static Value write(const ProcessStep& step);

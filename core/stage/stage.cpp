@@ -38,8 +38,8 @@ Finish finish_for(const Look& look, const Material* material, const Mesh& mesh, 
 
 /// What the source's steps make of a mesh of it.
 Result<std::shared_ptr<const Mesh>> finished(const MeshSource& source, const std::shared_ptr<const Mesh>& mesh,
-                                             double scale) {
-  Result<std::shared_ptr<const Mesh>> made = processed_once(mesh, source.process, scale);
+                                             double scale, const glm::dmat4& thing_from_mesh = glm::dmat4(1.0)) {
+  Result<std::shared_ptr<const Mesh>> made = processed_once(mesh, source.process, scale, thing_from_mesh);
   if (made) return made;
   Fault fault = made.fault();
   fault.where = "/process" + fault.where;
@@ -78,10 +78,18 @@ class StoodModel {
   std::optional<std::vector<std::vector<double>>> weights_;
 };
 
+/// Where the nodes lie as long as nothing moves them: what is done to a mesh is done there.
+std::vector<glm::dmat4> resting_nodes(const Model& model) {
+  std::vector<NodePose> poses;
+  for (const Node& node : model.nodes) poses.push_back(node.pose);
+  return model_from_nodes(model, poses);
+}
+
 Result<std::vector<Drawable>> model_drawables(const Model& model, const MeshSource& source, double scale,
                                               const glm::dmat4& world_from_thing, const Look& look,
                                               const Setting& setting) {
   StoodModel stood(model, setting.time_s);
+  const std::vector<glm::dmat4> resting = source.process.empty() ? std::vector<glm::dmat4>() : resting_nodes(model);
   std::vector<Drawable> drawables;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     for (const ModelPart& part : model.nodes[i].parts) {
@@ -93,7 +101,8 @@ Result<std::vector<Drawable>> model_drawables(const Model& model, const MeshSour
                      "remove the steps, or process the file where it was made"};
       }
       Drawable& drawable = drawables.emplace_back(stood.place(i, part));
-      Result<std::shared_ptr<const Mesh>> mesh = finished(source, drawable.mesh, scale);
+      Result<std::shared_ptr<const Mesh>> mesh =
+          source.process.empty() ? drawable.mesh : finished(source, drawable.mesh, scale, resting[i]);
       if (!mesh) return mesh.fault();
       drawable.mesh = *std::move(mesh);
       drawable.world_from_mesh = world_from_thing * drawable.world_from_mesh;

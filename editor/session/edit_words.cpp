@@ -183,6 +183,8 @@ constexpr std::array step_words{
     Word{"decimate", "Decimate"},
     Word{"smooth", "Smooth"},
     Word{"subdivide", "Subdivide"},
+    Word{"uv-plane", "Lay a picture by a plane on"},
+    Word{"uv-projector", "Lay a picture by a projector on"},
 };
 
 /// Of a whole step; its settings are keys like others.

@@ -4,6 +4,8 @@
 
 #include "core/scene/alternatives.h"
 #include "core/scene/process_codec.h"
+#include "core/stage/texture_maps.h"
+#include "editor/session/angles.h"
 #include "editor/session/edits.h"
 #include "editor/session/property_rows.h"
 
@@ -16,7 +18,7 @@ struct StepWords {
   const char* help;
 };
 
-constexpr std::array<StepWords, 12> step_words{{
+constexpr std::array<StepWords, 15> step_words{{
     {"weld", "weld", "Vertices this near to each other come together."},
     {"clean", "clean", "Triangles without area, and doubles, go."},
     {"drop-fins", "drop fins", "Sheets that hang on an edge of others go."},
@@ -29,6 +31,10 @@ constexpr std::array<StepWords, 12> step_words{{
     {"decimate by error", "decimate by error", "As few triangles as this far off allows; borders stay."},
     {"smooth", "smooth", "Noise goes, sharp edges stay."},
     {"subdivide", "subdivide", "Several triangles of each, and rounder."},
+    {"uv-plane", "UV by a fitted plane", "A picture goes straight through, from border to border of each mesh."},
+    {"uv-plane of a size", "UV by a plane",
+     "A picture of a size, standing where its place says, goes straight through."},
+    {"uv-projector", "UV by the projector", "The picture lies where the projector threw it when the step was made."},
 }};
 
 struct SettingWords {
@@ -37,7 +43,7 @@ struct SettingWords {
   NumberLook look;
 };
 
-constexpr std::array<SettingWords, 9> setting_words{{
+constexpr std::array<SettingWords, 15> setting_words{{
     {"tolerance_mm", "tolerance", {"mm", 3, 0.005}},
     {"least_share", "least share", {"", 3, 0.001}},
     {"longest_mm", "longest around", {"mm", 1, 1.0}},
@@ -47,16 +53,40 @@ constexpr std::array<SettingWords, 9> setting_words{{
     {"error_mm", "error", {"mm", 3, 0.005}},
     {"rounds", "rounds", {}},
     {"feature_deg", "edges from", {"°", 1, 0.5}},
+    {"width_px", "columns", {}},
+    {"height_px", "rows", {}},
+    {"fx_px", "focal length x", {"px", 1, 0.5}},
+    {"fy_px", "focal length y", {"px", 1, 0.5}},
+    {"cx_px", "centre x", {"px", 1, 0.5}},
+    {"cy_px", "centre y", {"px", 1, 0.5}},
 }};
 
 std::string choice_of(const Value& step) {
   const Value* name = step.find("step");
   if (!name || !name->text()) return "";
-  return step.find("error_mm") ? *name->text() + " by error" : *name->text();
+  if (step.find("error_mm")) return *name->text() + " by error";
+  return step.find("size_m") ? *name->text() + " of a size" : *name->text();
+}
+
+/// A picture before all of the thing, or a metre wide.
+Value fresh_plane(const PropertyScope& scope, const Thing& thing) {
+  UvPlaneStep step{{}, glm::dvec2(1.0)};
+  if (const std::vector<Drawable>* drawables = drawables_of(scope, thing)) {
+    const glm::dvec3 seen_from_m = pose_at(scope.project.viewer.placement, scope.time_s).position_m;
+    step = facing_plane(*drawables, pose_of(scope.project, thing, scope.time_s), seen_from_m);
+    if (!step.size_m) step.size_m = glm::dvec2(1.0);
+  }
+  return Codec<ProcessStep>::write({step, {}});
 }
 
 /// A step as it begins.
 Value fresh_step(const PropertyScope& scope, const Thing& thing, const std::string& choice) {
+  if (choice == "uv-plane of a size") return fresh_plane(scope, thing);
+  if (choice == "uv-projector" && !scope.project.projectors.empty()) {
+    const UvProjectorStep step =
+        thrown_by(scope.project.projectors.front(), pose_of(scope.project, thing, scope.time_s));
+    return Codec<ProcessStep>::write({step, {}});
+  }
   if (choice == "decimate by error") return Value(Value::Object{{"step", "decimate"}, {"error_mm", 0.1}});
   Value step(Value::Object{{"step", choice}});
   if (choice == "decimate") {
@@ -89,12 +119,72 @@ void add_scheme_row(PropertyRows& rows, const std::string& key) {
   if (row.value.is_null()) row.value = Value(SubdivisionWords::words.front().first);
 }
 
+std::optional<glm::dquat> turn_of(const Value& rotation_xyzw) {
+  const Value::Array* q = rotation_xyzw.array();
+  if (!q || q->size() != 4) return std::nullopt;
+  const auto number = [&](std::size_t i) { return (*q)[i].number() ? *(*q)[i].number() : 0.0; };
+  return glm::dquat(number(3), number(0), number(1), number(2));
+}
+
+std::vector<Edit> set_step_angle(const PropertyScope& scope, const Thing& thing, const Property& row,
+                                 const Value& value) {
+  const std::string key = row.key.substr(0, row.key.rfind('/'));
+  const Value item = item_of(scope.project, thing);
+  const Value* there = value_at(item, pointer_steps(key));
+  const auto turn = there ? turn_of(*there) : std::nullopt;
+  if (!turn || !value.number()) return {};
+  glm::dvec3 angles_deg = angles_of(*turn);
+  angles_deg[row.key.back() - '0'] = *value.number();
+  return {set_edit(thing, key, value_of(rotation_of(angles_deg)))};
+}
+
+void indent(PropertyRows& rows, std::size_t index) {
+  rows.last().id = "step " + std::to_string(index + 1) + " " + rows.last().label;
+  rows.last().label = "    " + rows.last().label;
+}
+
+/// Where a picture stands and how large it is, in the thing's own axes.
+template <class Kind>
+void add_picture_rows(PropertyRows& rows, std::size_t index, const Value& step, const std::string& key) {
+  const std::string place = "mesh/process/" + std::to_string(index) + "/" + key + "/";
+  const auto add = [&](const std::string& label, int axis) {
+    rows.number<Kind>(label, place + std::to_string(axis), {"m", 3, 0.001}).removable = false;
+    indent(rows, index);
+  };
+  if (key == "position_m") {
+    for (int axis = 0; axis < 3; ++axis) add(std::string("picture ") + "xyz"[axis], axis);
+  } else if (key == "size_m") {
+    if (!step.find(key)) return;
+    add("picture width", 0);
+    add("picture height", 1);
+  } else {
+    const auto turn = turn_of(rows.at("mesh/process/" + std::to_string(index) + "/" + key));
+    const glm::dvec3 angles_deg = turn ? angles_of(*turn) : glm::dvec3(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+      constexpr const char* names[]{"picture pitch", "picture yaw", "picture roll"};
+      Property& row = rows.add(Property::Kind::number, names[axis], Value(angles_deg[axis]));
+      row.unit = "°";
+      row.digits = 1;
+      row.step = 0.5;
+      row.least = -36000.0;
+      row.most = 36000.0;
+      row.key = place + std::to_string(axis);
+      row.edits = set_step_angle;
+      indent(rows, index);
+    }
+  }
+}
+
 template <class Kind>
 void add_settings(PropertyRows& rows, std::size_t index, const Value& step) {
   const std::string place = "mesh/process/" + std::to_string(index) + "/";
   each_field<Kind>([&](const auto& field) {
     const std::string key(field.key);
     if (std::is_same_v<Kind, DecimateStep> && !step.find(key)) return;
+    if (key == "position_m" || key == "rotation_xyzw" || key == "size_m") {
+      add_picture_rows<Kind>(rows, index, step, key);
+      return;
+    }
     const auto words = std::ranges::find(setting_words, key, &SettingWords::key);
     if (words == setting_words.end()) {
       add_scheme_row(rows, place + key);
@@ -102,8 +192,7 @@ void add_settings(PropertyRows& rows, std::size_t index, const Value& step) {
       Property& row = rows.number<Kind>(words->label, place + key, words->look);
       if (std::is_same_v<Kind, DecimateStep>) row.removable = false;
     }
-    rows.last().id = "step " + std::to_string(index + 1) + " " + rows.last().label;
-    rows.last().label = "    " + rows.last().label;
+    indent(rows, index);
   });
 }
 

@@ -71,10 +71,12 @@ Project rich_project() {
     if (key) made.set(key, number);
     return made;
   };
+  Value with_size = step_of("uv-plane");
+  with_size.set("size_m", Value(Value::Array{1.0, 2.0}));
   const Value process(Value::Array{step_of("weld"), step_of("clean"), step_of("drop-bits"),
                                    step_of("fill-holes", "longest_mm", 50.0), step_of("keep-part"),
                                    step_of("decimate", "triangles", 1000.0), step_of("decimate", "error_mm", 0.5),
-                                   step_of("smooth"), step_of("subdivide")});
+                                   step_of("smooth"), step_of("subdivide"), with_size, step_of("uv-projector")});
   Value with_file = object("plane");
   with_file.set("mesh", Value(Value::Object{{"file", "assets/a.glb"}, {"process", process}}));
   const auto add = [](const char* list, const char* name, Value item) { return add_edit(list, name, std::move(item)); };
