@@ -136,6 +136,7 @@ TEST_CASE("slices.optimal-lattice") { check_code("slices.optimal-lattice", Sever
 TEST_CASE("mesh.size") { check_code("mesh.size", Severity::warning, true); }
 TEST_CASE("mesh.winding") { check_code("mesh.winding", Severity::warning, true); }
 TEST_CASE("mesh.inside-out") { check_code("mesh.inside-out", Severity::warning, true); }
+TEST_CASE("mesh.no-uv") { check_code("mesh.no-uv", Severity::warning, true, false); }
 TEST_CASE("mesh.repeated") { check_code("mesh.repeated", Severity::warning, true); }
 TEST_CASE("mesh.forks") { check_code("mesh.forks", Severity::warning, true); }
 TEST_CASE("mesh.holes") { check_code("mesh.holes", Severity::info, true); }
@@ -187,6 +188,7 @@ TEST_CASE("every project here belongs to a test, and every code of the design to
                                        "projector.pixel-layout",
                                        "slices.optimal-lattice",
                                        "mesh.size",
+                                       "mesh.no-uv",
                                        "mesh.winding",
                                        "mesh.inside-out",
                                        "mesh.repeated",
