@@ -44,6 +44,15 @@ Status check_extensions(const GltfDocument& document) {
   return {};
 }
 
+/// What a file uses without requiring it may be left out, but not silently. Those of materials are told with them.
+void tell_extensions(const GltfDocument& document, std::vector<Finding>& findings) {
+  for (const std::string& used : document.gltf.extensionsUsed) {
+    if (is_among(used, known_extensions) || used.starts_with("KHR_materials_")) continue;
+    findings.push_back(asset_finding(Severity::info, "asset.extension", document.path + ": /extensionsUsed",
+                                     used.substr(0, 60) + " is left out"));
+  }
+}
+
 }  // namespace
 
 Storage storage_of(const tinygltf::Accessor& accessor) {
@@ -73,6 +82,7 @@ Status check_gltf_file(const GltfDocument& document) {
 
 Result<std::vector<Finding>> check_gltf(const GltfDocument& document) {
   std::vector<Finding> findings;
+  tell_extensions(document, findings);
   if (Status status = check_gltf_accessors(document, findings); !status) return status.fault();
   for (const auto part : {check_gltf_materials, check_gltf_cameras_and_lights, check_gltf_meshes, check_gltf_nodes,
                           check_gltf_skins, check_gltf_animations}) {

@@ -6,6 +6,8 @@
 namespace focalstage {
 namespace {
 
+constexpr std::size_t most_json_bytes = std::size_t{128} << 20;
+
 /// Judged without a parser: those recurse, and make up to a kilobyte of every bracket.
 const char* monstrous(std::span<const std::byte> json) {
   constexpr int deepest = 64;
@@ -27,7 +29,7 @@ const char* monstrous(std::span<const std::byte> json) {
       if (values > most_values) return "the JSON holds more than two million values";
     }
   }
-  return nullptr;
+  return in_text || depth > 0 ? "the JSON ends too early" : nullptr;
 }
 
 /// All of a .gltf, the first chunk of a .glb.
@@ -63,6 +65,10 @@ Result<GltfText> found_text(std::span<const std::byte> bytes, const std::string&
 Result<GltfText> gltf_text(std::span<const std::byte> bytes, const std::string& path) {
   Result<GltfText> text = found_text(bytes, path);
   if (!text) return text;
+  if (text->json.size() > most_json_bytes) {
+    return Fault{"asset.too-large", path, "its JSON is over 128 MiB long",
+                 "save it as .glb, or keep its buffers and images in files"};
+  }
   if (const char* reason = monstrous(text->json)) return invalid_asset(path, reason);
   return text;
 }

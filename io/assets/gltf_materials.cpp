@@ -69,10 +69,32 @@ class MaterialReader {
       if (!read) return read.fault();
       material.texture = *read;
     }
+    if (!material.unlit) tell_left_out(from, index);
     result_.invisible.push_back(cut_away(from, index, alpha_of(material.texture.get()), material.alpha_cutoff));
     result_.layouts.push_back(texture.index < 0 ? TextureLayout{} : texture_layout(texture));
     result_.materials.push_back(std::move(material));
     return {};
+  }
+
+  /// Lights act on what is drawn as on matt paper: what a material says beyond its base colour is told.
+  void tell_left_out(const tinygltf::Material& from, std::size_t index) {
+    const tinygltf::PbrMetallicRoughness& pbr = from.pbrMetallicRoughness;
+    const auto written = [&](const char* key) { return from.values.contains(key); };
+    std::string what;
+    const auto add = [&](bool there, const std::string& name) {
+      if (there) what += (what.empty() ? "" : ", ") + name;
+    };
+    const bool mapped = pbr.metallicRoughnessTexture.index >= 0;
+    add(mapped || (written("metallicFactor") && pbr.metallicFactor > 0.0), "metal");
+    add(mapped || (written("roughnessFactor") && pbr.roughnessFactor < 1.0), "gloss");
+    const auto is_light = [](double factor) { return factor > 0.0; };
+    add(std::ranges::any_of(from.emissiveFactor, is_light), "light of its own");
+    add(from.normalTexture.index >= 0, "a normal map");
+    add(from.occlusionTexture.index >= 0, "occlusion");
+    for (const auto& [name, value] : from.extensions) add(true, name.substr(0, 60));
+    if (what.empty()) return;
+    result_.findings.push_back(asset_finding(Severity::info, "asset.drawn-matt", document_.at("materials", index),
+                                             "the material is drawn matt; left out: " + what));
   }
 
   /// Whether its alpha is below the cutoff everywhere. A mask that is neither that nor opaque everywhere is cut where

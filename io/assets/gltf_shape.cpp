@@ -51,6 +51,25 @@ void check_geometry(MemberChecker& check, const Json& root) {
              {{"joints", Kind::indices, true}, {"inverseBindMatrices", Kind::index}, {"skeleton", Kind::index}});
 }
 
+/// Told by the length of its text, before anything is decoded.
+void check_inline_size(MemberChecker& check, const Json& buffer, const std::string& at) {
+  const auto uri = buffer.find("uri");
+  if (uri == buffer.end() || !uri->is_string()) return;
+  const std::string_view text = uri->get_ref<const std::string&>();
+  constexpr std::string_view mark = ";base64,";
+  const std::size_t comma = text.substr(0, 200).find(mark);
+  if (!text.starts_with("data:") || comma == std::string_view::npos) return;
+  const std::string_view code = text.substr(comma + mark.size());
+  const std::size_t padding = code.ends_with("==") ? 2 : code.ends_with('=') ? 1 : 0;
+  const std::size_t bytes = code.size() / 4 * 3;
+  const auto& announced = buffer.at("byteLength");
+  if (!announced.is_number_unsigned() || code.size() % 4 != 0 || bytes < padding) return;
+  if (announced.get<std::uint64_t>() != bytes - padding) {
+    check.invalid(at + "/uri",
+                  "the buffer is " + std::to_string(bytes - padding) + " bytes long and its byteLength differs");
+  }
+}
+
 void check_data(MemberChecker& check, const Json& root) {
   check.each(
       root, "", "accessors",
@@ -76,7 +95,8 @@ void check_data(MemberChecker& check, const Json& root) {
               {"byteOffset", Kind::size},
               {"byteLength", Kind::size, true},
               {"byteStride", Kind::size}});
-  check.each(root, "", "buffers", {{"uri", Kind::text}, {"byteLength", Kind::size, true}});
+  check.each(root, "", "buffers", {{"uri", Kind::text}, {"byteLength", Kind::size, true}},
+             [&](const Json& buffer, const std::string& at) { check_inline_size(check, buffer, at); });
 }
 
 void check_materials(MemberChecker& check, const Json& root) {

@@ -116,6 +116,7 @@ class ObjReader {
     while (!text_.at_end_of_line()) {
       Corner corner;
       if (!read_corner(text_.word(), corner)) return text_.invalid("a corner names no vertex the file has so far");
+      if (corners_.size() == most_corners) return text_.invalid(too_many_corners);
       corners_.push_back(corner);
       places_.push_back(positions_[corner[0]]);
     }
@@ -192,16 +193,36 @@ class ObjReader {
   std::vector<glm::uvec3> cut_;
 };
 
+/// The '\n' of a line that a backslash at `at` continues; 0 where it does not.
+std::size_t continued_at(std::span<const std::byte> bytes, std::size_t at) {
+  if (bytes[at] != std::byte{'\\'} || at + 1 == bytes.size()) return 0;
+  const std::size_t end = bytes[at + 1] == std::byte{'\r'} && at + 2 < bytes.size() ? at + 2 : at + 1;
+  return bytes[end] == std::byte{'\n'} ? end : 0;
+}
+
+/// `check_line_lengths` of what becomes of continued lines.
+Status check_joined_lengths(std::span<const std::byte> bytes, const std::string& path) {
+  std::size_t line_start = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    if (const std::size_t end = continued_at(bytes, i)) {
+      i = end;
+    } else if (bytes[i] == std::byte{'\n'}) {
+      line_start = i + 1;
+    }
+    if (i + 1 - line_start > longest_line_bytes) {
+      return invalid_asset(path + ": byte " + std::to_string(line_start), "a line is over 64 MiB long");
+    }
+  }
+  return {};
+}
+
 /// A backslash at a line's end continues it on the next: both become spaces.
 std::vector<std::byte> joined_lines(std::span<const std::byte> bytes) {
   std::vector<std::byte> joined(bytes.begin(), bytes.end());
-  for (std::size_t i = 0; i + 1 < joined.size(); ++i) {
-    const bool carriage = joined[i + 1] == std::byte{'\r'} && i + 2 < joined.size();
-    const std::size_t end = carriage ? i + 2 : i + 1;
-    if (joined[i] == std::byte{'\\'} && joined[end] == std::byte{'\n'}) {
-      std::fill(joined.begin() + static_cast<std::ptrdiff_t>(i), joined.begin() + static_cast<std::ptrdiff_t>(end) + 1,
-                std::byte{' '});
-    }
+  for (std::size_t i = 0; i < joined.size(); ++i) {
+    const std::size_t end = continued_at(bytes, i);
+    for (; end != 0 && i <= end; ++i) joined[i] = std::byte{' '};
+    if (end != 0) --i;
   }
   return joined;
 }
@@ -209,9 +230,11 @@ std::vector<std::byte> joined_lines(std::span<const std::byte> bytes) {
 }  // namespace
 
 Result<MeshFile> read_obj(const FileToRead& file) {
+  if (Status lines = check_line_lengths(file.bytes, file.path); !lines) return lines.fault();
   if (std::find(file.bytes.begin(), file.bytes.end(), std::byte{'\\'}) == file.bytes.end()) {
     return ObjReader(file, file.bytes).read();
   }
+  if (Status lines = check_joined_lengths(file.bytes, file.path); !lines) return lines.fault();
   const std::vector<std::byte> joined = joined_lines(file.bytes);
   return ObjReader(file, joined).read();
 }

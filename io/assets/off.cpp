@@ -93,6 +93,7 @@ class OffReader {
       if (!text_.next_line()) return text_.invalid("the file ends before its last face");
       const std::optional<std::int64_t> count = integer_from(text_.word());
       if (!count || *count < 3) return text_.invalid("a face has fewer than three corners");
+      if (static_cast<std::uint64_t>(*count) > most_corners) return text_.invalid(too_many_corners);
       corners_.clear();
       places_.clear();
       for (std::int64_t k = 0; k < *count; ++k) {
@@ -126,6 +127,9 @@ class OffReader {
 
 }  // namespace
 
-Result<MeshFile> read_off(const FileToRead& file) { return OffReader(file).read(); }
+Result<MeshFile> read_off(const FileToRead& file) {
+  if (Status lines = check_line_lengths(file.bytes, file.path); !lines) return lines.fault();
+  return OffReader(file).read();
+}
 
 }  // namespace focalstage

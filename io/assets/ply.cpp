@@ -6,6 +6,7 @@
 #include "io/assets/ply_header.h"
 #include "io/assets/ply_numbers.h"
 #include "io/assets/polygons.h"
+#include "io/assets/text_reader.h"
 
 namespace focalstage {
 namespace {
@@ -149,6 +150,7 @@ class PlyReader {
     if (!is_integer(property.type)) return invalid("vertex indices are not integers");
     if (!read_list_count(property, count)) return invalid("a face's count of corners is missing or wrong");
     if (count < 3) return invalid("a face has fewer than three corners");
+    if (count > most_corners) return invalid(too_many_corners);
     corners_.clear();
     places_.clear();
     for (std::uint64_t k = 0; k < count; ++k) {
@@ -187,6 +189,9 @@ class PlyReader {
 Result<MeshFile> read_ply(const FileToRead& file) {
   Result<PlyHeader> header = read_ply_header(file.bytes, file.path);
   if (!header) return header.fault();
+  if (header->format == PlyHeader::Format::ascii) {
+    if (Status lines = check_line_lengths(file.bytes, file.path); !lines) return lines.fault();
+  }
   return PlyReader(file, *std::move(header)).read();
 }
 

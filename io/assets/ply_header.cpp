@@ -18,6 +18,9 @@ constexpr std::pair<std::string_view, PlyType> type_names[] = {
     {"float64", PlyType::float64},
 };
 
+constexpr std::size_t most_header_bytes = std::size_t{1} << 20;
+constexpr std::size_t most_properties = 1000;  ///< of an element
+
 std::optional<PlyType> type_from(std::string_view name) {
   for (const auto& [known, type] : type_names) {
     if (known == name) return type;
@@ -42,6 +45,7 @@ class HeaderReader {
     }
     if (word() != "1.0") return invalid("the version is not 1.0");
     while (next_line()) {
+      if (header_.size_bytes > most_header_bytes) return invalid("the header is over 1 MiB long");
       const std::string_view key = word();
       if (key == "end_header") return header_;
       if (key.empty() || key == "comment" || key == "obj_info") continue;
@@ -94,6 +98,7 @@ class HeaderReader {
     property.name = word();
     if (!known || property.name.empty() || !word().empty()) return false;
     property.type = *known;
+    if (header_.elements.back().properties.size() == most_properties) return false;
     for (const PlyProperty& other : header_.elements.back().properties) {
       if (other.name == property.name) return false;
     }

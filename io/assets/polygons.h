@@ -8,6 +8,10 @@
 
 namespace focalstage {
 
+/// A face with more corners is none that anybody modelled, and would cost more than all others of a file.
+inline constexpr std::size_t most_corners = 65536;
+inline constexpr const char* too_many_corners = "a face has more than 65,536 corners";
+
 /// Cuts polygons into triangles that wind as they do. Convex ones become fans from their first corner; others lose
 /// their ears one by one. One that crosses itself has no right answer: it becomes a fan and is counted.
 class PolygonCutter {

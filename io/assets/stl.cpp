@@ -154,7 +154,8 @@ Result<MeshFile> read_stl(const FileToRead& file) {
     if (file.bytes.size() == header_bytes + count * facet_bytes) return read_binary(file);
   }
   TextReader text(file.bytes, file.path, 0);
-  if (text.next_line() && is(text.word(), "solid")) return AsciiReader(file).read();
+  const bool has_lines = check_line_lengths(file.bytes, file.path).ok();
+  if (has_lines && text.next_line() && is(text.word(), "solid")) return AsciiReader(file).read();
   if (file.bytes.size() < header_bytes) return invalid_asset(file.path, "the file is shorter than any STL");
   return invalid_asset(file.path, "the file announces " + std::to_string(count) + " facets, which take " +
                                       std::to_string(header_bytes + count * facet_bytes) + " bytes, and has " +

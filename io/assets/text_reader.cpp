@@ -39,8 +39,18 @@ void TextReader::skip_spaces() {
   line_.remove_prefix(start == std::string_view::npos ? line_.size() : start);
 }
 
+/// Files may be nothing but ends of lines: eight at once.
+void TextReader::skip_empty_lines() {
+  constexpr std::string_view ends = "\n\n\n\n\n\n\n\n";
+  while (text_.starts_with(ends)) {
+    text_.remove_prefix(ends.size());
+    line_number_ += ends.size();
+  }
+}
+
 bool TextReader::next_line() {
   do {
+    skip_empty_lines();
     if (text_.empty()) {
       line_ = {};
       return false;
@@ -71,6 +81,18 @@ std::string_view TextReader::rest_of_line() {
 std::string TextReader::where() const { return path_ + ": line " + std::to_string(line_number_); }
 
 Fault TextReader::invalid(const std::string& what) const { return invalid_asset(where(), what); }
+
+Status check_line_lengths(std::span<const std::byte> bytes, const std::string& path) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  for (std::size_t begin = 0; text.size() - begin > longest_line_bytes;) {
+    const std::size_t end = text.substr(begin, longest_line_bytes).rfind('\n');
+    if (end == std::string_view::npos) {
+      return invalid_asset(path + ": byte " + std::to_string(begin), "a line is over 64 MiB long");
+    }
+    begin += end + 1;
+  }
+  return {};
+}
 
 std::optional<double> number_from(std::string_view word) {
   const std::optional<double> value = value_from<double>(word);

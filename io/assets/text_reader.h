@@ -38,6 +38,7 @@ class TextReader {
 
  private:
   void take_line();
+  void skip_empty_lines();
   void skip_spaces();
 
   std::string_view text_;
@@ -46,6 +47,12 @@ class TextReader {
   char comment_;
   std::size_t line_number_ = 0;
 };
+
+/// No text of ours has longer lines; who reads words may hold that against a file of one line.
+inline constexpr std::size_t longest_line_bytes = std::size_t{1} << 26;
+
+/// Refuses a text with a line over `longest_line_bytes`, or one nearly as long, without reading all of it.
+Status check_line_lengths(std::span<const std::byte> bytes, const std::string& path);
 
 /// The whole word as a finite number, or nothing.
 std::optional<double> number_from(std::string_view word);

@@ -85,6 +85,19 @@ class PngReader {
   char message_[160] = "out of memory";
 };
 
+/// Of all pieces with the packed picture.
+std::uint64_t packed_bytes(std::span<const std::byte> bytes) {
+  constexpr std::size_t signature = 8, around = 12;  // length, name and checksum
+  std::uint64_t sum = 0;
+  for (std::size_t at = signature; at + around <= bytes.size();) {
+    std::uint32_t length = 0;
+    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | std::to_integer<std::uint32_t>(bytes[at + i]);
+    if (std::memcmp(bytes.data() + at + 4, "IDAT", 4) == 0) sum += length;
+    at += around + std::size_t{length};
+  }
+  return sum;
+}
+
 /// Why the file cannot hold what its header says, or none.
 std::optional<Fault> wrong_head(PngReader& reader, std::span<const std::byte> bytes, const std::string& source) {
   // Deflate packs at most 1032 to 1: a short file that promises more is cut off, whatever its header says.
@@ -92,6 +105,11 @@ std::optional<Fault> wrong_head(PngReader& reader, std::span<const std::byte> by
   if (!reader.read_header()) return image_fault(source, "bad PNG: " + reader.why());
   if (reader.raw_bytes / most_packing > bytes.size()) {
     return image_fault(source, "bad PNG: the file is too short for the size it gives");
+  }
+  // libpng unpacks all there is, also behind the last row. What cannot be packed takes little more than itself.
+  constexpr std::uint64_t spare_bytes = 65536;
+  if (packed_bytes(bytes) > 2 * reader.raw_bytes + spare_bytes) {
+    return image_fault(source, "bad PNG: the file holds far more data than the size it gives");
   }
   return std::nullopt;
 }
