@@ -16,6 +16,7 @@ std::span<const Command> commands() {
       Command{"devices", "list what is plugged in where a rig is, or make one show itself", declare_devices},
       Command{"pair", "make or import the certificates by which a rig is reached", declare_pair},
       Command{"import", "say what a mesh or glTF file holds", declare_import},
+      Command{"process", "say what the steps of meshes did to them, in millimetres", declare_process},
       Command{"apply", "apply a file of edits to a project", declare_apply},
       Command{"solve", "find the sweep and the slices that a project needs", declare_solve},
       Command{"adopt-rig", "set a project to what a rig measured of itself", declare_adopt_rig},

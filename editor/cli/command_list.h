@@ -15,6 +15,7 @@ Command::Run declare_rig(CLI::App& app);
 Command::Run declare_devices(CLI::App& app);
 Command::Run declare_pair(CLI::App& app);
 Command::Run declare_import(CLI::App& app);
+Command::Run declare_process(CLI::App& app);
 Command::Run declare_apply(CLI::App& app);
 Command::Run declare_solve(CLI::App& app);
 Command::Run declare_shape(CLI::App& app);
