@@ -125,7 +125,9 @@ struct Table<Projector> {
       field("focus_m", at(&Projector::focus_m), Presence::optional, length_m),
       field("depth_of_field_d", at(&Projector::depth_of_field_d), Presence::optional,
             {.low = 0, .high = 1e3, .above_low = true}),
-      field("lumens", at(&Projector::lumens), Presence::optional, {.low = 0, .high = 1e7, .above_low = true}));
+      field("lumens", at(&Projector::lumens), Presence::optional, {.low = 0, .high = 1e7, .above_low = true}),
+      field("blend_margin_px", at(&Projector::blend_margin_px), Presence::optional,
+            {.low = 0, .high = 4096, .above_low = true}));
 
   static bool check(Reading& reading, const Projector& projector);
 };

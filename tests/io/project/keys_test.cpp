@@ -102,6 +102,7 @@ const std::vector<Row> rows{
     {"projectors", "main", "focus_m", "0.6"},
     {"projectors", "main", "depth_of_field_d", "1"},
     {"projectors", "main", "lumens", "1000"},
+    {"projectors", "main", "blend_margin_px", "32"},
     {"slices", "", "powers_d", "[1,-1,0.25,0]"},
     {"slices", "", "assignment", R"("optimal")"},
     {"slices", "", "breathing", R"("planar")"},

@@ -88,6 +88,8 @@ const std::vector<Bad> bad_values{
     {"/projectors/0/transfer/1", "1.5", "project.range", ""},
     {"/projectors/0/black_level", "0.6", "project.range", ""},
     {"/projectors/0/black_level", "-0.1", "project.range", ""},
+    {"/projectors/0/blend_margin_px", "0", "project.range", ""},
+    {"/projectors/0/blend_margin_px", "5000", "project.range", ""},
     {"/slices/compensation/mode", R"("bright")", "project.word", ""},
     {"/slices/compensation/white", "0", "project.range", ""},
     {"/slices/compensation/reference_m", "0", "project.range", ""},
