@@ -56,7 +56,7 @@ struct Frame {
   PerEye<const OptimalChange*> changes;  ///< null without
   const Encoder* encoder;
   FrameImages* images;
-  const SurfaceGains* gains;  ///< null: no compensation
+  const SurfaceGains* gains;  ///< null: no compensation, and no other projector
   ClipMap* clips;             ///< null: nobody asks
 };
 
@@ -132,7 +132,7 @@ void compile_tile(const Frame& frame, std::size_t image, int column, int row, Ro
   } else {
     compensated_light(frame, spec, column, row, light, tally.objects);
     const auto tile = static_cast<std::size_t>(row * frame.run.rays->grid.columns() + column);
-    if (light.any)
+    if (light.any && frame.gains->counts)
       count_asked(light, frame.run.met->tiles[tile], *frame.run.surfaces, frame.run.slice.channels, tally.surfaces);
   }
   write_tile(frame, image, column, row, light, tally);
@@ -146,7 +146,7 @@ std::vector<RowTally> compile_rows(const Frame& frame, std::stop_token stop) {
   tbb::parallel_for(0, grid.rows(), [&](int row) {
     RowTally& tally = tallies[static_cast<std::size_t>(row)];
     tally.objects.resize(run.stage->objects.size());
-    if (frame.gains != nullptr) tally.surfaces.resize(run.stage->surfaces.size());
+    if (frame.gains != nullptr && frame.gains->counts) tally.surfaces.resize(run.stage->surfaces.size());
     if (stop.stop_requested()) return;
     for (std::size_t image = 0; image < run.settings->images.size(); ++image) {
       for (int column = 0; column < grid.columns(); ++column) compile_tile(frame, image, column, row, tally);
@@ -220,7 +220,7 @@ struct Compiler::State {
     if (!same_surfaces) {
       met = projector_hits(*rays, settings.projector, surfaces, kernel);
       surface_measure = measure_surface(settings, *rays, *met);
-      gains = surface_gains(settings, *rays, *met, surfaces);
+      gains = surface_gains(settings, *rays, *met, surfaces, kernel);
     }
     const PerEye<Eye> eyes = eyes_of(stage.world_from_viewer, stage.interpupillary_m, settings.lens_to_pupil_m);
     for (const Side side : both_sides) {
@@ -256,7 +256,7 @@ struct Compiler::State {
                 {&views.left, &views.right},
                 slice_setups(settings.slices, settings.lens_to_pupil_m),
                 {&kernel, &rule, settings.channels, 1.0f / static_cast<float>(rays->subsamples),
-                 gains && settings.black_level > 0.0}},
+                 gains && makes_up_for_black(settings)}},
                {nullptr, nullptr},
                &encoder,
                &out.images,

@@ -3,7 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/optics/light_levels.h"
+
 namespace focalstage {
+namespace {
+
+std::vector<BlendProjector> blend_of(const Project& project) {
+  const std::vector<double> levels = light_levels(project);
+  std::vector<BlendProjector> all;
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    const Projector& one = project.projectors[i];
+    all.push_back({projector_model(one), one.blend_margin_px, one.black_level, levels[i],
+                   reference_m(one, project.slices.compensation)});
+  }
+  return all;
+}
+
+}  // namespace
 
 CompileSettings compile_settings(const Project& project, std::size_t projector_index) {
   const Projector& projector = project.projectors.at(projector_index);
@@ -17,9 +33,11 @@ CompileSettings compile_settings(const Project& project, std::size_t projector_i
   settings.lens_to_pupil_m = project.glasses.lens_to_pupil_mm / 1000.0;
   settings.focus_m = projector.focus_m.value_or(0.0);
   settings.depth_of_field_d = projector.depth_of_field_d.value_or(0.0);
-  settings.reference_m = project.slices.compensation.reference_m.value_or(projector.focus_m.value_or(1.0));
+  settings.reference_m = reference_m(projector, project.slices.compensation);
   settings.slices = project.slices;
   settings.images = image_plan(project);
+  settings.blend_own = projector_index;
+  if (project.projectors.size() > 1) settings.blend = blend_of(project);
   return settings;
 }
 

@@ -16,6 +16,17 @@ namespace focalstage {
 /// Nothing nearer to the projector than this is lit.
 inline constexpr double nearest_lit_m = 1e-3;
 
+/// One of several projectors that light the same surfaces (docs/blending.md).
+struct BlendProjector {
+  ProjectorModel model;  ///< at full size
+  double margin_px = 64.0;
+  double black_level = 0.0;
+  double level = 1.0;        ///< its full white at `reference_m`, against what counts as 1
+  double reference_m = 1.0;  ///< on its axis
+
+  bool operator==(const BlendProjector&) const = default;
+};
+
 /// All that decides the images of a frame apart from the stage.
 struct CompileSettings {
   ProjectorModel projector;
@@ -30,6 +41,8 @@ struct CompileSettings {
   double reference_m = 1.0;  ///< where light counts as 1, with compensation `even`
   Slices slices;
   std::vector<ImageSpec> images;
+  std::vector<BlendProjector> blend{};  ///< all projectors of the project; none where it has but this one
+  std::size_t blend_own = 0;            ///< which of them this is
 
   bool operator==(const CompileSettings&) const = default;
 };

@@ -35,27 +35,24 @@ TileRays rays_of_tile(const ProjectorModel& projector, int column, int row, doub
   return rays;
 }
 
-Box bounds_of(const ProjectorRays& rays) {
-  Box bounds{infinity, infinity, -infinity, -infinity};
-  for (const TileRays& tile : rays.tiles) {
-    for (int i = 0; i < tile_samples; ++i) {
-      if (tile.x[i] == tile.x[i]) take_in(bounds, static_cast<float>(tile.x[i]), static_cast<float>(tile.y[i]));
-    }
-  }
-  return bounds;
+}  // namespace
+
+ProjectorSight::ProjectorSight(const ProjectorModel& projector, const std::vector<ViewDrawable>& surfaces,
+                               const Box& bounds, int columns, int rows) {
+  set_up(view_, surfaces, projector.world_from_projector.inverse(), nearest_lit_m, bounds);
+  sort_into_cells(cells_, view_, bounds, columns, rows, {}, 0.0);
 }
 
-void meet(const TileRays& rays, const ViewTriangles& view, const KernelView& in_cells, const Kernel& kernel,
-          TileMet& met) {
+void ProjectorSight::meet(const TileRays& rays, const Kernel& kernel, TileMet& met) const {
   std::fill_n(met.drawable, tile_samples, -1);
   met.any = false;
   const LocalLooks local = local_looks(rays.x, rays.y, kernel);
   if (!local.any) return;
   TileNearest nearest;
-  kernel.cover(in_cells, local.looks, local.origin_x, local.origin_y, nearest);
+  kernel.cover(kernel_view(view_, cells_), local.looks, local.origin_x, local.origin_y, nearest);
   for (int i = 0; i < tile_samples; ++i) {
     if (nearest.triangle[i] < 0) continue;
-    const ViewTriangle& triangle = view.triangles[static_cast<std::size_t>(nearest.triangle[i])];
+    const ViewTriangle& triangle = view_.triangles[static_cast<std::size_t>(nearest.triangle[i])];
     const double depth_m = 1.0 / triangle.inverse_depth(rays.x[i], rays.y[i]);
     met.any = true;
     met.drawable[i] = static_cast<std::int32_t>(triangle.drawable);
@@ -66,7 +63,15 @@ void meet(const TileRays& rays, const ViewTriangles& view, const KernelView& in_
   }
 }
 
-}  // namespace
+Box bounds_of(const ProjectorRays& rays) {
+  Box bounds{infinity, infinity, -infinity, -infinity};
+  for (const TileRays& tile : rays.tiles) {
+    for (int i = 0; i < tile_samples; ++i) {
+      if (tile.x[i] == tile.x[i]) take_in(bounds, static_cast<float>(tile.x[i]), static_cast<float>(tile.y[i]));
+    }
+  }
+  return bounds;
+}
 
 LocalLooks local_looks(const double* x, const double* y, const Kernel& kernel) {
   LocalLooks local;
@@ -110,19 +115,18 @@ ProjectorRays projector_rays(const ProjectorModel& projector, int samples_per_pi
   return rays;
 }
 
-ProjectorHits projector_hits(const ProjectorRays& rays, const ProjectorModel& projector,
-                             const std::vector<ViewDrawable>& surfaces, const Kernel& kernel) {
-  const Box bounds = bounds_of(rays);
-  ViewTriangles view;
-  set_up(view, surfaces, projector.world_from_projector.inverse(), nearest_lit_m, bounds);
-  Cells cells;
-  sort_into_cells(cells, view, bounds, rays.grid.columns(), rays.grid.rows(), {}, 0.0);
-  const KernelView in_cells = kernel_view(view, cells);
+ProjectorHits projector_hits(const ProjectorRays& rays, const ProjectorSight& sight, const Kernel& kernel) {
   ProjectorHits hits;
   hits.tiles.resize(rays.tiles.size());
   tbb::parallel_for(std::size_t{0}, rays.tiles.size(),
-                    [&](std::size_t i) { meet(rays.tiles[i], view, in_cells, kernel, hits.tiles[i]); });
+                    [&](std::size_t i) { sight.meet(rays.tiles[i], kernel, hits.tiles[i]); });
   return hits;
+}
+
+ProjectorHits projector_hits(const ProjectorRays& rays, const ProjectorModel& projector,
+                             const std::vector<ViewDrawable>& surfaces, const Kernel& kernel) {
+  const ProjectorSight sight(projector, surfaces, bounds_of(rays), rays.grid.columns(), rays.grid.rows());
+  return projector_hits(rays, sight, kernel);
 }
 
 }  // namespace focalstage

@@ -44,6 +44,23 @@ struct ProjectorHits {
   std::vector<TileMet> tiles;
 };
 
+/// The surfaces as a projector sees them, to be asked along any look within `bounds` of its tangent plane.
+class ProjectorSight {
+ public:
+  ProjectorSight(const ProjectorModel& projector, const std::vector<ViewDrawable>& surfaces, const Box& bounds,
+                 int columns, int rows);
+
+  void meet(const TileRays& rays, const Kernel& kernel, TileMet& met) const;
+
+ private:
+  ViewTriangles view_;
+  Cells cells_;
+};
+
+/// Around all that leaves the projector.
+Box bounds_of(const ProjectorRays& rays);
+
+ProjectorHits projector_hits(const ProjectorRays& rays, const ProjectorSight& sight, const Kernel& kernel);
 ProjectorHits projector_hits(const ProjectorRays& rays, const ProjectorModel& projector,
                              const std::vector<ViewDrawable>& surfaces, const Kernel& kernel);
 

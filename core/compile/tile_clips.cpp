@@ -30,7 +30,7 @@ void compensate_content(const TileGain& gain, float leak, int channels, TileLigh
     float* const channel = light.channel[c];
     for (int i = 0; i < tile_samples; ++i) channel[i] *= gain.content[c][i];
     if (!(leak > 0.0f)) continue;
-    for (int i = 0; i < tile_samples; ++i) channel[i] -= leak * light.weight[i];
+    for (int i = 0; i < tile_samples; ++i) channel[i] -= leak * gain.leak[i] * light.weight[i];
   }
 }
 

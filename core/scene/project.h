@@ -130,8 +130,8 @@ struct Projector {
   std::optional<double> focus_m;
   std::optional<double> depth_of_field_d;
   std::optional<double> lumens;
-  /// Where others light the same surfaces (docs/blending.md): how far, in its own pixels, its share of the light runs out
-  /// towards the edge of its picture and of what shadows it.
+  /// Where others light the same surfaces (docs/blending.md): how far, in its own pixels, its share of the light runs
+  /// out towards the edge of its picture and of what shadows it.
   double blend_margin_px = 64.0;
   Unknown unknown{};
   bool operator==(const Projector&) const = default;
