@@ -42,7 +42,8 @@ std::vector<LitSurface> surfaces_in_light(const Project& project, const Stage& s
 
 /// What was measured of a project's frames, as far as it was.
 struct Measured {
-  std::vector<FrameMeasure> frames;
+  std::vector<FrameMeasure> frames;                   ///< of the first projector
+  std::vector<std::vector<FrameMeasure>> others{};    ///< of the others, each
   std::vector<std::vector<ObjectCoverage>> coverage;  ///< per frame
   std::vector<ObjectConflict> conflicts;
   std::vector<MeshState> meshes;  ///< of the first frame
@@ -60,6 +61,10 @@ struct Measured {
 /// (io/models).
 std::vector<Finding> check(const Project& project, const ScheduleResult& schedule, const Measured& measured,
                            std::span<const ProjectorModelData> models);
+
+/// The same for all projectors of the project, each by its own schedule: what is wrong with a projector is said of it.
+std::vector<Finding> check(const Project& project, const std::vector<ScheduleResult>& schedules,
+                           const Measured& measured, std::span<const ProjectorModelData> models);
 
 /// Whether `Measured::needs`, where they are not there yet, could give one of the findings a better remedy.
 bool needs_would_help(const std::vector<Finding>& findings);

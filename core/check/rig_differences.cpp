@@ -108,6 +108,17 @@ void check_projector(const Projector& projector, const RigValues& rig, std::vect
   }
 }
 
+/// Half a picture is none: what lies where projectors overlap would lack the share of those that are not there.
+void check_count(const Project& project, const RigValues& rig, std::vector<Finding>& findings) {
+  if (project.projectors.size() <= std::max<std::size_t>(rig.projectors, 1)) return;
+  const Projector& first_missing = project.projectors[std::max<std::size_t>(rig.projectors, 1)];
+  findings.push_back(difference(
+      "/projectors/" + std::to_string(std::max<std::size_t>(rig.projectors, 1)),
+      "the project has " + std::to_string(project.projectors.size()) + " projectors and the rig " +
+          std::to_string(rig.projectors) + ": \"" + first_missing.name + "\" would stay dark",
+      static_cast<double>(project.projectors.size()), static_cast<double>(rig.projectors), "projectors", {}));
+}
+
 }  // namespace
 
 std::vector<Finding> rig_differences(const Project& project, const RigValues& rig) {
@@ -118,6 +129,7 @@ std::vector<Finding> rig_differences(const Project& project, const RigValues& ri
   check_time("/glasses/shutter_close_ms", "the shutters' closing", project.glasses.shutter_close_ms,
              rig.shutter_close_ms, set_edit("glasses", "", "shutter_close_ms", rig.shutter_close_ms), findings);
   if (!project.projectors.empty()) check_projector(project.projectors.front(), rig, findings);
+  check_count(project, rig, findings);
   std::stable_sort(findings.begin(), findings.end(),
                    [](const Finding& a, const Finding& b) { return a.where < b.where; });
   return findings;

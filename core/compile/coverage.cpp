@@ -52,8 +52,9 @@ struct CoverageMeter::State {
   ObjectSurvey survey;
 };
 
-CoverageMeter::CoverageMeter(ProjectorModel projector, double lens_to_pupil_m, double lens_aperture_m, int grid)
-    : state_(new State{lens_aperture_m, ObjectSurvey(std::move(projector), lens_to_pupil_m, grid)}) {}
+CoverageMeter::CoverageMeter(std::vector<ProjectorModel> projectors, double lens_to_pupil_m, double lens_aperture_m,
+                             int grid)
+    : state_(new State{lens_aperture_m, ObjectSurvey(std::move(projectors), lens_to_pupil_m, grid)}) {}
 CoverageMeter::~CoverageMeter() = default;
 CoverageMeter::CoverageMeter(CoverageMeter&&) noexcept = default;
 CoverageMeter& CoverageMeter::operator=(CoverageMeter&&) noexcept = default;

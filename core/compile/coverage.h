@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/optics/projector_model.h"
@@ -14,7 +15,7 @@ struct ObjectCoverage {
   std::size_t index = 0;  ///< in the project's list
   std::uint64_t looks = 0;
   std::uint64_t off_surface = 0;        ///< no surface behind or before it to carry the picture
-  std::uint64_t outside_projector = 0;  ///< the surface is there, the projector does not reach it
+  std::uint64_t outside_projector = 0;  ///< the surface is there, no projector reaches it
   std::uint64_t outside_lens = 0;       ///< the look misses the lens aperture
 
   /// Adds other looks at the same object.
@@ -22,10 +23,13 @@ struct ObjectCoverage {
 };
 
 /// Measures stage after stage of one project: looks from both pupils over a regular grid about as fine as `grid` x
-/// `grid` over the objects. Keeps how the eyes and the projector see the surfaces while those stand still.
+/// `grid` over the objects. Keeps how the eyes and the projectors see the surfaces while those stand still.
 class CoverageMeter {
  public:
-  CoverageMeter(ProjectorModel projector, double lens_to_pupil_m, double lens_aperture_m, int grid = 64);
+  /// `projectors`: all that light the surfaces.
+  CoverageMeter(std::vector<ProjectorModel> projectors, double lens_to_pupil_m, double lens_aperture_m, int grid = 64);
+  CoverageMeter(ProjectorModel projector, double lens_to_pupil_m, double lens_aperture_m, int grid = 64)
+      : CoverageMeter(std::vector{std::move(projector)}, lens_to_pupil_m, lens_aperture_m, grid) {}
   ~CoverageMeter();
   CoverageMeter(CoverageMeter&&) noexcept;
   CoverageMeter& operator=(CoverageMeter&&) noexcept;

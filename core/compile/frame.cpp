@@ -41,6 +41,13 @@ CompileSettings compile_settings(const Project& project, std::size_t projector_i
   return settings;
 }
 
+std::vector<ProjectorModel> projectors_of(const CompileSettings& settings) {
+  if (settings.blend.empty()) return {settings.projector};
+  std::vector<ProjectorModel> models;
+  for (const BlendProjector& one : settings.blend) models.push_back(one.model);
+  return models;
+}
+
 OptimalMeasure operator+(const OptimalMeasure& a, const OptimalMeasure& b) {
   return {a.tiles + b.tiles,   a.accepted_tiles + b.accepted_tiles, a.left_tiles + b.left_tiles,
           a.values + b.values, a.linear_error + b.linear_error,     a.optimal_error + b.optimal_error};

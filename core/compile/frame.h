@@ -47,6 +47,9 @@ struct CompileSettings {
   bool operator==(const CompileSettings&) const = default;
 };
 
+/// All projectors that light the surfaces: this one, or those of the blend.
+std::vector<ProjectorModel> projectors_of(const CompileSettings& settings);
+
 /// What the project's projector number `projector` needs.
 CompileSettings compile_settings(const Project& project, std::size_t projector = 0);
 

@@ -107,8 +107,8 @@ struct NeedMeter::State {
   ObjectSurvey survey;
 };
 
-NeedMeter::NeedMeter(ProjectorModel projector, double lens_to_pupil_m, Breathing breathing, int grid)
-    : state_(new State{breathing != Breathing::off, ObjectSurvey(std::move(projector), lens_to_pupil_m, grid)}) {}
+NeedMeter::NeedMeter(std::vector<ProjectorModel> projectors, double lens_to_pupil_m, Breathing breathing, int grid)
+    : state_(new State{breathing != Breathing::off, ObjectSurvey(std::move(projectors), lens_to_pupil_m, grid)}) {}
 NeedMeter::~NeedMeter() = default;
 NeedMeter::NeedMeter(NeedMeter&&) noexcept = default;
 NeedMeter& NeedMeter::operator=(NeedMeter&&) noexcept = default;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/optics/needs.h"
@@ -19,7 +20,9 @@ namespace focalstage {
 /// reaches.)
 class NeedMeter {
  public:
-  NeedMeter(ProjectorModel projector, double lens_to_pupil_m, Breathing breathing, int grid = 64);
+  NeedMeter(std::vector<ProjectorModel> projectors, double lens_to_pupil_m, Breathing breathing, int grid = 64);
+  NeedMeter(ProjectorModel projector, double lens_to_pupil_m, Breathing breathing, int grid = 64)
+      : NeedMeter(std::vector{std::move(projector)}, lens_to_pupil_m, breathing, grid) {}
   ~NeedMeter();
   NeedMeter(NeedMeter&&) noexcept;
   NeedMeter& operator=(NeedMeter&&) noexcept;

@@ -27,13 +27,13 @@ struct SurveyEye {
 };
 
 /// Looks from both pupils over a regular grid about as fine as `grid` x `grid` over the objects of stage after stage.
-/// Keeps how the eyes and the projector see the surfaces while those stand still.
+/// Keeps how the eyes and the projectors see the surfaces while those stand still.
 class ObjectSurvey {
  public:
-  ObjectSurvey(ProjectorModel projector, double lens_to_pupil_m, int grid)
+  ObjectSurvey(std::vector<ProjectorModel> projectors, double lens_to_pupil_m, int grid)
       : lens_to_pupil_m_(lens_to_pupil_m),
         tiles_(tiles_across(grid)),
-        surfaces_(std::move(projector), lens_to_pupil_m, tiles_) {}
+        surfaces_(std::move(projectors), lens_to_pupil_m, tiles_) {}
 
   /// Adds up `survey_tile(eye, tile_column, tile_row, sums)` over all tiles of looks and both eyes; rows of tiles count
   /// beside each other, each from `empty`. `Sum` has `add`, whose order of calls does not matter.

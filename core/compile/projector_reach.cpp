@@ -25,6 +25,13 @@ Box picture_box(const ProjectorRays& rays, const ProjectorModel& model) {
   return {box.min_x - x, box.min_y - y, box.max_x + x, box.max_y + y};
 }
 
+/// Far off the axis a distortion can lead back into the picture, where another look's light leaves.
+bool folds_back(const ProjectorModel& model, const glm::dvec2& tangent, const glm::dvec2& pixel) {
+  if (model.distortion.empty()) return false;
+  const glm::dvec2 back = tangent_of_pixel(model, pixel);
+  return std::abs(back.x - tangent.x) > 1e-6 || std::abs(back.y - tangent.y) > 1e-6;
+}
+
 struct PixelPlace {
   std::size_t tile;
   int sample;
@@ -189,7 +196,7 @@ void ProjectorReach::firmness(const SurfacePoint* points, const Kernel& kernel, 
     const glm::dvec2 tangent = glm::dvec2(seen_m[i]) / -seen_m[i].z;
     const glm::dvec2 pixel = pixel_of_tangent(projector_.model, tangent);
     const bool inside = pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < grid_.width_px && pixel.y < grid_.height_px;
-    if (!inside) continue;
+    if (!inside || folds_back(projector_.model, tangent, pixel)) continue;
     looks.x[i] = tangent.x;
     looks.y[i] = tangent.y;
     any = true;

@@ -63,17 +63,19 @@ Sight::Met Sight::nearest(const Looks& looks) const {
   return met;
 }
 
-SurfaceSights::SurfaceSights(ProjectorModel projector, double lens_to_pupil_m, int cells_across)
-    : projector_(std::move(projector)), lens_to_pupil_m_(lens_to_pupil_m), cells_across_(cells_across) {}
+SurfaceSights::SurfaceSights(std::vector<ProjectorModel> projectors, double lens_to_pupil_m, int cells_across)
+    : projectors_(std::move(projectors)), lens_to_pupil_m_(lens_to_pupil_m), cells_across_(cells_across) {}
 
 void SurfaceSights::look(const Stage& stage, const PerEye<Eye>& eyes) {
-  const bool same_surfaces = from_projector_ && surfaces_before_ == stage.surfaces;
+  const bool same_surfaces = !from_projectors_.empty() && surfaces_before_ == stage.surfaces;
   const bool same_viewer =
       same_surfaces && viewer_before_ == stage.world_from_viewer && interpupillary_before_m_ == stage.interpupillary_m;
   if (same_viewer) return;
   const std::vector<ViewDrawable> surfaces = drawables_of(stage.surfaces);
   if (!same_surfaces) {
-    from_projector_.emplace(surfaces, projector_.world_from_projector.inverse(), 1e-3, cells_across_);
+    from_projectors_.clear();
+    for (const ProjectorModel& projector : projectors_)
+      from_projectors_.emplace_back(surfaces, projector.world_from_projector.inverse(), 1e-3, cells_across_);
   }
   for (const Side side : both_sides) {
     of_surfaces_[side].emplace(surfaces, eyes[side].eye_from_world, nearest_seen_m(lens_to_pupil_m_), cells_across_);
@@ -85,7 +87,15 @@ void SurfaceSights::look(const Stage& stage, const PerEye<Eye>& eyes) {
 
 std::array<bool, tile_samples> SurfaceSights::reached(const Rigid& eye_from_world, const Sight::Looks& looks,
                                                       const Sight::Met& met) const {
-  const Rigid projector_from_eye = projector_.world_from_projector.inverse() * eye_from_world.inverse();
+  std::array<bool, tile_samples> lit{};
+  for (std::size_t i = 0; i < projectors_.size(); ++i) add_reached(i, eye_from_world, looks, met, lit);
+  return lit;
+}
+
+void SurfaceSights::add_reached(std::size_t projector, const Rigid& eye_from_world, const Sight::Looks& looks,
+                                const Sight::Met& met, std::array<bool, tile_samples>& lit) const {
+  const ProjectorModel& model = projectors_[projector];
+  const Rigid projector_from_eye = model.world_from_projector.inverse() * eye_from_world.inverse();
   Sight::Looks towards;
   double depth_m[tile_samples];
   for (int i = 0; i < tile_samples; ++i) {
@@ -95,17 +105,16 @@ std::array<bool, tile_samples> SurfaceSights::reached(const Rigid& eye_from_worl
     depth_m[i] = -point.z;
     if (!(depth_m[i] > 0.0)) continue;
     const glm::dvec2 tangent{point.x / depth_m[i], point.y / depth_m[i]};
-    if (!lights(projector_, tangent)) continue;
+    if (!lights(model, tangent)) continue;
     towards.x[i] = tangent.x;
     towards.y[i] = tangent.y;
   }
-  const Sight::Met first = from_projector_->nearest(towards);
-  std::array<bool, tile_samples> lit{};
+  const Sight::Met first = from_projectors_[projector].nearest(towards);
   for (int i = 0; i < tile_samples; ++i) {
     if (std::isnan(towards.x[i])) continue;
-    lit[static_cast<std::size_t>(i)] = !first.at(i) || first.depth_m[i] >= depth_m[i] * (1.0 - shadow_tolerance);
+    if (!first.at(i) || first.depth_m[i] >= depth_m[i] * (1.0 - shadow_tolerance))
+      lit[static_cast<std::size_t>(i)] = true;
   }
-  return lit;
 }
 
 }  // namespace focalstage

@@ -43,27 +43,30 @@ class Sight {
   Box bounds_{};
 };
 
-/// How both eyes and the projector see the real surfaces; kept while surfaces and viewer stand still.
+/// How both eyes and the projectors see the real surfaces; kept while surfaces and viewer stand still.
 class SurfaceSights {
  public:
-  SurfaceSights(ProjectorModel projector, double lens_to_pupil_m, int cells_across);
+  SurfaceSights(std::vector<ProjectorModel> projectors, double lens_to_pupil_m, int cells_across);
 
   void look(const Stage& stage, const PerEye<Eye>& eyes);
 
   const Sight& from_eye(Side side) const { return *of_surfaces_[side]; }
 
-  /// Which of the points on surfaces that `looks` of an eye meet the projector's light reaches.
+  /// Which of the points on surfaces that `looks` of an eye meet some projector's light reaches.
   std::array<bool, tile_samples> reached(const Rigid& eye_from_world, const Sight::Looks& looks,
                                          const Sight::Met& met) const;
 
  private:
-  ProjectorModel projector_;
+  void add_reached(std::size_t projector, const Rigid& eye_from_world, const Sight::Looks& looks, const Sight::Met& met,
+                   std::array<bool, tile_samples>& lit) const;
+
+  std::vector<ProjectorModel> projectors_;
   double lens_to_pupil_m_;
   int cells_across_;
   std::vector<StagedSurface> surfaces_before_;
   Rigid viewer_before_;
   double interpupillary_before_m_ = 0.0;
-  std::optional<Sight> from_projector_;
+  std::vector<Sight> from_projectors_;
   PerEye<std::optional<Sight>> of_surfaces_;
 };
 

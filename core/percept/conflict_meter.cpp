@@ -35,18 +35,28 @@ bool looked_at_for_conflict(int frame, int frames) {
 }
 
 ConflictMeter::ConflictMeter(const Project& project, CompileSettings settings, Schedule schedule)
+    : ConflictMeter(project, std::vector{std::move(settings)}, std::vector{std::move(schedule)}) {}
+
+ConflictMeter::ConflictMeter(const Project& project, std::vector<CompileSettings> settings,
+                             std::vector<Schedule> schedules)
     : settings_(std::move(settings)),
-      schedule_(std::move(schedule)),
+      schedules_(std::move(schedules)),
       glasses_(worn_glasses(project.glasses)),
       sums_(project.objects.size()) {}
 
 Status ConflictMeter::add(const Stage& stage, const FrameImages& images, std::stop_token stop) {
+  return add(stage, std::vector{&images}, std::move(stop));
+}
+
+Status ConflictMeter::add(const Stage& stage, const std::vector<const FrameImages*>& images, std::stop_token stop) {
   for (const Side side : both_sides) {
-    const RetinaInput input = seen_frame(stage, settings_, images, schedule_, glasses_, side);
+    std::vector<RetinaInput> inputs;
+    for (std::size_t i = 0; i < images.size(); ++i)
+      inputs.push_back(seen_frame(stage, settings_[i], *images[i], schedules_[i], glasses_, side));
     const RetinaView view = view_of(side);
-    const auto focus = retinas_[side].driven_focus(input, view, stop);
+    const auto focus = retinas_[side].driven_focus(inputs, view, stop);
     if (!focus) return focus.fault();
-    const ThingMap things = things_seen(input, view, {}, stop);
+    const ThingMap things = things_seen(inputs.front(), view, {}, stop);
     if (stop.stop_requested()) return Fault{"retina.cancelled", "", "stopped before the end", ""};
     for (const ThingConflict& conflict : thing_conflicts(things, *focus)) {
       const SeenThing& thing = things.things[conflict.thing];

@@ -5,7 +5,7 @@
 
 #include "core/compile/frame.h"
 #include "core/percept/seen_frame.h"
-#include "core/retina/retina.h"
+#include "core/retina/retinas.h"
 #include "core/schedule/schedule.h"
 #include "core/stage/stage.h"
 
@@ -27,9 +27,12 @@ bool looked_at_for_conflict(int frame, int frames);
 class ConflictMeter {
  public:
   ConflictMeter(const Project& project, CompileSettings settings, Schedule schedule);
+  /// Of several projectors, each with its own settings and schedule.
+  ConflictMeter(const Project& project, std::vector<CompileSettings> settings, std::vector<Schedule> schedules);
 
   /// Faults: those of Retina.
   Status add(const Stage& stage, const FrameImages& images, std::stop_token stop);
+  Status add(const Stage& stage, const std::vector<const FrameImages*>& images, std::stop_token stop);
 
   /// Objects of which something was lit, in the project's order.
   std::vector<ObjectConflict> conflicts() const;
@@ -43,10 +46,10 @@ class ConflictMeter {
     double worst_d = 0.0;
   };
 
-  CompileSettings settings_;
-  Schedule schedule_;
+  std::vector<CompileSettings> settings_;  ///< of each projector
+  std::vector<Schedule> schedules_;
   WornGlasses glasses_;
-  PerEye<Retina> retinas_;
+  PerEye<Retinas> retinas_;
   std::vector<Sum> sums_;  ///< by the object's index in the project
 };
 

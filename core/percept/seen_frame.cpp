@@ -66,7 +66,10 @@ RetinaInput seen_frame(const Stage& stage, const CompileSettings& settings, cons
   input.gamma = settings.gamma;
   input.transfer = settings.transfer;
   input.black_level = settings.black_level;
-  if (settings.slices.compensation.mode == CompensationMode::even) input.falloff_reference_m = settings.reference_m;
+  if (settings.slices.compensation.mode == CompensationMode::even) {
+    input.falloff_reference_m = settings.reference_m;
+    if (!settings.blend.empty()) input.level = settings.blend.at(settings.blend_own).level;
+  }
   if (room.ambient_lux > 0.0) {
     input.ambient = ambient_shares(schedule, glasses, side, room, reference_lux(stage, settings, input, room.flux));
   }

@@ -22,7 +22,7 @@ struct WornGlasses {
 
 WornGlasses worn_glasses(const Glasses& glasses);
 
-/// Of the project's first projector.
+/// Of the project's first projector, whose light the room's is weighed against.
 ProjectorFlux flux_of(const Project& project);
 
 /// What else there is to see by, and what it is weighed against.

@@ -87,7 +87,8 @@ ThingMap things_seen(const RetinaInput& input, const RetinaView& view, const Pro
     if (stop.stop_requested()) return map;
   }
   const Rigid world_from_eye = eye.eye_from_world.inverse();
-  const Brightness brightness(input.projector, flux, input.falloff_reference_m);
+  const ProjectorFlux counted{flux.lumens / input.level, flux.exposure_share};  // what counts as 1
+  const Brightness brightness(input.projector, counted, input.falloff_reference_m);
   tbb::parallel_for(0, view.height_px, [&](int row) {
     for (int column = 0; column < view.width_px; ++column) {
       const std::size_t pixel =

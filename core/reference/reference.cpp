@@ -191,6 +191,10 @@ Result<CompiledFrame> compile_reference(const Stage& stage, const CompileSetting
     return Fault{"compile.assignment", "/slices/assignment", "the naive reference has no assignment \"optimal\"",
                  "compile without --reference, or use \"linear\" or \"nearest\""};
   }
+  if (!settings.blend.empty()) {
+    return Fault{"compile.blend", "/projectors", "the naive reference knows one projector, and has no blending",
+                 "compile without --reference"};
+  }
   const Result<Samples> samples = Samples::of(stage, settings);
   if (!samples) return samples.fault();
 

@@ -228,6 +228,9 @@ Result<RetinaImage> see_by_rays(const RetinaInput& input, const RetinaView& view
     });
   });
   if (stop.stop_requested()) return Fault{"retina.cancelled", "", "stopped before the picture was done", ""};
+  if (input.level != 1.0) {
+    for (float& value : image.rgb) value *= static_cast<float>(input.level);
+  }
   return image;
 }
 

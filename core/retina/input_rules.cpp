@@ -47,6 +47,7 @@ Status check_exposures(const RetinaInput& input) {
 
 Status check_light(const RetinaInput& input) {
   if (!within(input.black_level, 0.0, 0.5)) return unfit("the black level lies outside 0 to 0.5");
+  if (!within(input.level, 0.0, 1e6)) return unfit("the level of the light lies outside 0 to a million");
   const auto is_share = [](double share) { return within(share, 0.0, 1.0); };
   if (input.transfer.size() == 1 || !std::all_of(input.transfer.begin(), input.transfer.end(), is_share))
     return unfit("the transfer function is no list of shares");

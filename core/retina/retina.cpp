@@ -153,7 +153,11 @@ Result<RetinaImage> Retina::State::view(const RetinaInput& input, const RetinaVi
   });
   const std::vector<float> planes = layers.blurred(stop);
   if (stop.stop_requested()) return cancelled;
-  return image_of(planes, grid, margin, view, channels);
+  RetinaImage image = image_of(planes, grid, margin, view, channels);
+  if (input.level != 1.0) {
+    for (float& value : image.rgb) value *= static_cast<float>(input.level);
+  }
+  return image;
 }
 
 /// What is lit and seen through each power, sharp; for `also_d` too there is a map, the last one. None after a stop
@@ -183,6 +187,9 @@ Result<DrivenFocus> Retina::State::driven_focus(const RetinaInput& input, const 
   if (!lit) return cancelled;
   DrivenFocus focus = driven_focus_of(*lit, input, view, margin_px, stop);
   if (stop.stop_requested()) return cancelled;
+  if (input.level != 1.0) {
+    for (float& value : focus.luminance) value *= static_cast<float>(input.level);
+  }
   return focus;
 }
 

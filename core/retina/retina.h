@@ -50,6 +50,7 @@ struct RetinaInput {
   double gamma = 1.0;
   std::vector<double> transfer{};  ///< in place of `gamma`; see Projector
   double black_level = 0.0;        ///< what every exposure leaks, as a share of full white
+  double level = 1.0;              ///< how much brighter its full white is than what counts as 1
   /// Light thins with distance and angle as pixels do, 1 being what falls on the axis this far away; none: all alike.
   std::optional<double> falloff_reference_m{};
   std::vector<PowerShare>

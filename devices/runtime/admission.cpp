@@ -103,10 +103,23 @@ Status fits_rig(const ShowHeader& show, const Project& project, const RigDescrip
   return Fault{"rig.differs", "show", text, "take over this rig's values with adopt-rig and compile again"};
 }
 
+namespace {
+
+/// The player knows one head, however many the rig describes: a show is played whole or not at all.
+Status one_projector(const ShowHeader& show, const Project& project) {
+  if (show.projectors() < 2 && project.projectors.size() < 2) return {};
+  return Fault{"rig.differs", "show /projector/1",
+               "it has several projectors, and a runtime plays shows of one: the others would stay dark",
+               "push a show of a project with one projector"};
+}
+
+}  // namespace
+
 Result<SweepPlan> admit(const ShowHeader& show, const Project& project, const ScheduleResult& schedule,
                         const std::vector<FrameMeasure>& measures, const RigTerms& rig) {
   if (Status sound = without_errors(project, schedule, measures, rig.models); !sound) return sound.fault();
   if (Status fits = fits_rig(show, project, rig.describe(show.frequency_hz)); !fits) return fits.fault();
+  if (Status alone = one_projector(show, project); !alone) return alone.fault();
   Result<SweepPlan> plan =
       sweep_plan(show, project.projectors.empty() ? PictureForm{}.bits : project.projectors[0].bits);
   if (!plan) return plan;

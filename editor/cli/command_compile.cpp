@@ -36,8 +36,10 @@ Result<std::optional<FrameRange>> parse_range(const std::string& text) {
 }
 
 void print_summary(const Options& options, const CompileReport& report, bool optimal, double seconds) {
-  std::printf("%s: %d %s of %zu images, %zu exposures a period, compiled in %s", options.show.c_str(), report.frames,
-              report.frames == 1 ? "frame" : "frames", report.images, report.slots, duration_text(seconds).c_str());
+  const std::string by = report.projectors > 1 ? ", " + std::to_string(report.projectors) + " projectors" : "";
+  std::printf("%s: %d %s of %zu images, %zu exposures a period%s, compiled in %s", options.show.c_str(), report.frames,
+              report.frames == 1 ? "frame" : "frames", report.images, report.slots, by.c_str(),
+              duration_text(seconds).c_str());
   if (report.resumed > 0) std::printf(" (%d taken over)", report.resumed);
   if (optimal) {
     const OptimalMeasure both = report.optimal.left + report.optimal.right;
@@ -63,6 +65,7 @@ void print_report(const Options& options, const CompileReport& report, bool opti
   object.set("show", options.show);
   object.set("frames", report.frames);
   object.set("resumed", report.resumed);
+  if (report.projectors > 1) object.set("projectors", static_cast<double>(report.projectors));
   object.set("images", static_cast<double>(report.images));
   object.set("slots", static_cast<double>(report.slots));
   object.set("slowest_frame_ms", report.slowest_frame_ms);

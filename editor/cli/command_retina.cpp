@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "core/reference/seen.h"
 #include "editor/cli/command_list.h"
@@ -19,9 +20,9 @@ ExitStatus usage(const Fault& fault) {
   return ExitStatus::usage;
 }
 
-Status write_pictures(const RetinaOptions& options, const RetinaInput& input, const RetinaView& view,
+Status write_pictures(const RetinaOptions& options, std::span<const RetinaInput> inputs, const RetinaView& view,
                       const RetinaReport& made) {
-  const int channels = channels_of(input, view, made.picture);
+  const int channels = channels_of(inputs, view, made.picture);
   Status written =
       write_png16(options.output, view.width_px, view.height_px, channels, levels_of(made.picture, channels));
   if (!written || options.conflict.empty()) return written;
@@ -31,12 +32,16 @@ Status write_pictures(const RetinaOptions& options, const RetinaInput& input, co
 /// One look, by the fast way or by rays.
 Result<RetinaReport> look(const RetinaOptions& options, const SeenShow& seen, const RetinaView& view,
                           const std::stop_token& stop) {
-  Retina retina;
-  auto made = report_on(retina, seen.input(), view, seen.flux(), stop);
+  Retinas retinas;
+  const std::vector<RetinaInput> inputs = seen.inputs();
+  auto made = report_on(retinas, inputs, view, seen.flux(), stop);
   if (!made || options.rays == 0) return made;
-  auto exact = see_by_rays(seen.input(), view, {options.rays}, stop);
-  if (!exact) return exact.fault();
-  made->picture = *std::move(exact);
+  std::fill(made->picture.rgb.begin(), made->picture.rgb.end(), 0.0f);
+  for (const RetinaInput& input : inputs) {
+    const auto exact = see_by_rays(input, view, {options.rays}, stop);
+    if (!exact) return exact.fault();
+    add_light(*exact, made->picture);
+  }
   return made;
 }
 
@@ -47,13 +52,13 @@ ExitStatus run_look(const RetinaOptions& options, const SeenShow& seen, const Re
     interrupt.end_if_asked();
     return status;
   }
-  const RetinaInput input = seen.input();
-  if (Status written = write_pictures(options, input, view, *made); !written) return report(written.fault());
+  const std::vector<RetinaInput> inputs = seen.inputs();
+  if (Status written = write_pictures(options, inputs, view, *made); !written) return report(written.fault());
   const RetinaRun what{options.show, options.output, options.frame, *options.focus_m, options.pupil_mm};
   if (options.json) {
-    print_json(retina_value(what, view, input, *made));
+    print_json(retina_value(what, view, inputs, *made));
   } else {
-    std::fputs(retina_text(what, view, input, *made).c_str(), stdout);
+    std::fputs(retina_text(what, view, inputs, *made).c_str(), stdout);
   }
   return ExitStatus::done;
 }

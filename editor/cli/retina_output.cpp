@@ -30,11 +30,19 @@ Value thing_value(const RetinaReport& report, std::size_t i) {
   return value;
 }
 
+/// Of all projectors.
+std::size_t exposures_in(std::span<const RetinaInput> inputs) {
+  std::size_t count = 0;
+  for (const RetinaInput& input : inputs) count += input.exposures.size();
+  return count;
+}
+
 std::string or_dash(bool known, double value, int decimals) { return known ? fixed_text(value, decimals) : "-"; }
 
 }  // namespace
 
-Value retina_value(const RetinaRun& run, const RetinaView& view, const RetinaInput& input, const RetinaReport& report) {
+Value retina_value(const RetinaRun& run, const RetinaView& view, std::span<const RetinaInput> inputs,
+                   const RetinaReport& report) {
   double sum = 0.0, most = 0.0;
   for (const float light : report.picture.rgb) {
     sum += light;
@@ -43,7 +51,7 @@ Value retina_value(const RetinaRun& run, const RetinaView& view, const RetinaInp
   Value object;
   object.set("picture", run.picture);
   set_look(object, {run.show, run.frame, run.focus_m, run.pupil_mm}, view);
-  object.set("exposures", static_cast<double>(input.exposures.size()));
+  object.set("exposures", static_cast<double>(exposures_in(inputs)));
   object.set("mean_light", sum / static_cast<double>(report.picture.rgb.size()));
   object.set("most_light", most);
   object.set("leaked", report.leaked);
@@ -53,10 +61,10 @@ Value retina_value(const RetinaRun& run, const RetinaView& view, const RetinaInp
   return object;
 }
 
-std::string retina_text(const RetinaRun& run, const RetinaView& view, const RetinaInput& input,
+std::string retina_text(const RetinaRun& run, const RetinaView& view, std::span<const RetinaInput> inputs,
                         const RetinaReport& report) {
   std::string text = run.picture + ": the " + eye_word(view.eye) + " eye focused at " + short_text(run.focus_m) +
-                     " m (" + short_text(view.focus_d) + " D), " + std::to_string(input.exposures.size()) +
+                     " m (" + short_text(view.focus_d) + " D), " + std::to_string(exposures_in(inputs)) +
                      " exposures\n";
   if (report.leaked > 0.0) {
     text += fixed_text(100.0 * report.leaked, 1) +
@@ -85,8 +93,9 @@ std::string retina_text(const RetinaRun& run, const RetinaView& view, const Reti
                            rows);
 }
 
-int channels_of(const RetinaInput& input, const RetinaView& view, const RetinaImage& image) {
-  if (view.chromatic || input.channels == 3) return 3;
+int channels_of(std::span<const RetinaInput> inputs, const RetinaView& view, const RetinaImage& image) {
+  const auto is_coloured = [](const RetinaInput& input) { return input.channels == 3; };
+  if (view.chromatic || std::any_of(inputs.begin(), inputs.end(), is_coloured)) return 3;
   for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3) {
     if (image.rgb[i] != image.rgb[i + 1] || image.rgb[i] != image.rgb[i + 2]) return 3;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,15 +21,16 @@ struct RetinaRun {
 };
 
 /// The object that `--json` prints; docs/retina.md names its members.
-Value retina_value(const RetinaRun& run, const RetinaView& view, const RetinaInput& input, const RetinaReport& report);
+Value retina_value(const RetinaRun& run, const RetinaView& view, std::span<const RetinaInput> inputs,
+                   const RetinaReport& report);
 
 /// The same for people: a line, and a table of the things that are seen.
-std::string retina_text(const RetinaRun& run, const RetinaView& view, const RetinaInput& input,
+std::string retina_text(const RetinaRun& run, const RetinaView& view, std::span<const RetinaInput> inputs,
                         const RetinaReport& report);
 
 /// 3 where red, green and blue may differ: in a show of three channels, an eye with colours of its own, or a picture in
 /// which they do differ (painted surfaces).
-int channels_of(const RetinaInput& input, const RetinaView& view, const RetinaImage& image);
+int channels_of(std::span<const RetinaInput> inputs, const RetinaView& view, const RetinaImage& image);
 
 /// Linear light for a 16-bit picture, 65535 = full code; one channel of a gray picture.
 std::vector<std::uint16_t> levels_of(const RetinaImage& image, int channels);

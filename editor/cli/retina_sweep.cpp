@@ -26,14 +26,14 @@ Status make_folder(const std::string& folder) {
 
 Result<FocalSweep> write_stack(const RetinaOptions& options, const SeenShow& seen, const RetinaView& view,
                                const FocusRange& range, const std::stop_token& stop) {
-  const RetinaInput input = seen.input();
+  const std::vector<RetinaInput> inputs = seen.inputs();
   Progress bar("Focusing through " + options.show, options.json ? Progress::Style::quiet : Progress::Style::automatic);
-  Retina retina;
+  Retinas retinas;
   return sweep_focus(
-      retina, input, view, seen.flux(), range,
+      retinas, inputs, view, seen.flux(), range,
       [&](int i, const RetinaImage& picture) {
         const std::filesystem::path file = std::filesystem::path(options.output) / sweep_picture_name(range, i);
-        const int channels = channels_of(input, view, picture);
+        const int channels = channels_of(inputs, view, picture);
         Status written = write_png16(file, view.width_px, view.height_px, channels, levels_of(picture, channels));
         bar.update(i + 1, range.count, "picture");
         return written;

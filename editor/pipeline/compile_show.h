@@ -25,8 +25,9 @@ struct CompileJob {
 struct CompileReport {
   int frames = 0;
   int resumed = 0;  ///< of those, taken over from an earlier run
-  std::size_t images = 0;
-  std::size_t slots = 0;
+  std::size_t projectors = 1;
+  std::size_t images = 0;          ///< of a frame, of all projectors
+  std::size_t slots = 0;           ///< exposures of a period, of all projectors
   double slowest_frame_ms = 0.0;   ///< to compile, of those that were
   PerEye<OptimalMeasure> optimal;  ///< over all frames
   std::vector<Finding> findings;

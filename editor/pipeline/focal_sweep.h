@@ -2,13 +2,14 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <vector>
 
 #include "core/percept/focus_peak.h"
 #include "core/percept/thing_look.h"
 #include "core/percept/things.h"
-#include "core/retina/retina.h"
+#include "core/retina/retinas.h"
 
 namespace focalstage {
 
@@ -33,8 +34,8 @@ struct FocalSweep {
 using TakePicture = std::function<Status(int i, const RetinaImage& picture)>;
 
 /// Looks as `view` says but with each focus of `range` in turn; what sharp would be is looked at once, through a
-/// pinhole pupil, and `retina` keeps its maps over the stack. Faults: those of Retina and of `take`.
-Result<FocalSweep> sweep_focus(Retina& retina, const RetinaInput& input, const RetinaView& view,
+/// pinhole pupil, and `retinas` keep their maps over the stack. Faults: those of Retina and of `take`.
+Result<FocalSweep> sweep_focus(Retinas& retinas, std::span<const RetinaInput> inputs, const RetinaView& view,
                                const ProjectorFlux& flux, const FocusRange& range, const TakePicture& take,
                                std::stop_token stop);
 

@@ -7,20 +7,32 @@
 
 namespace focalstage {
 
+namespace {
+
+std::vector<CompileSettings> settings_of_all(const Project& project) {
+  std::vector<CompileSettings> all;
+  for (std::size_t i = 0; i < project.projectors.size(); ++i) all.push_back(compile_settings(project, i));
+  return all;
+}
+
+}  // namespace
+
 FrameMaker::FrameMaker(const Project& project, const Assets& assets, EngineChoice choice)
     : project_(project),
       assets_(assets),
       choice_(choice),
-      settings_(compile_settings(project)),
-      compiler_(settings_, choice.threads, choice.vectors),
-      meter_(settings_.projector, settings_.lens_to_pupil_m, project.glasses.lens_aperture_mm / 1000.0) {}
+      settings_(settings_of_all(project)),
+      meter_(projectors_of(settings_.at(0)), settings_[0].lens_to_pupil_m, project.glasses.lens_aperture_mm / 1000.0),
+      made_(settings_.size()) {
+  for (const CompileSettings& settings : settings_) compilers_.emplace_back(settings, choice.threads, choice.vectors);
+}
 
 Status FrameMaker::stand_up(int frame) {
   auto staged = stage(project_, assets_, frame / project_.frames.rate_hz);
   if (!staged) return staged.fault();
   if (stage_ && same_room(*stage_, *staged)) return {};
   coverage_ = {};  // waits for one that still looks at the stage
-  made_.reset();
+  for (std::optional<Made>& made : made_) made.reset();
   stage_ = std::move(*staged);
   const auto how = choice_.threads == 1 ? std::launch::deferred : std::launch::async;
   coverage_ = std::async(how, [this] { return meter_.measure(*stage_); }).share();
@@ -29,13 +41,14 @@ Status FrameMaker::stand_up(int frame) {
 
 const std::vector<ObjectCoverage>& FrameMaker::coverage() { return coverage_.get(); }
 
-Result<FrameMaker::Made> FrameMaker::compile(std::stop_token stop) {
-  if (made_) return *made_;
-  auto compiled = choice_.reference ? compile_reference(*stage_, settings_, choice_.threads)
-                                    : compiler_.frame(*stage_, std::move(stop), pool_.take());
+Result<FrameMaker::Made> FrameMaker::compile(std::stop_token stop, std::size_t projector) {
+  std::optional<Made>& made = made_.at(projector);
+  if (made) return *made;
+  auto compiled = choice_.reference ? compile_reference(*stage_, settings_[projector], choice_.threads)
+                                    : compilers_[projector].frame(*stage_, std::move(stop), pool_.take());
   if (!compiled) return compiled.fault();
-  made_ = Made{pool_.share(std::move(compiled->images)), std::move(compiled->measure)};
-  return *made_;
+  made = Made{pool_.share(std::move(compiled->images)), std::move(compiled->measure)};
+  return *made;
 }
 
 }  // namespace focalstage

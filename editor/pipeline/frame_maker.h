@@ -35,7 +35,8 @@ class FrameMaker {
   FrameMaker& operator=(const FrameMaker&) = delete;
 
   const Project& project() const { return project_; }
-  const CompileSettings& settings() const { return settings_; }
+  std::size_t projectors() const { return settings_.size(); }
+  const CompileSettings& settings(std::size_t projector = 0) const { return settings_[projector]; }
 
   /// Stands up frame `frame` of the project; the other calls are about it.
   Status stand_up(int frame);
@@ -49,18 +50,19 @@ class FrameMaker {
     std::shared_ptr<const FrameImages> images;
     FrameMeasure measure;
   };
-  Result<Made> compile(std::stop_token stop);
+  /// What one of the projectors shows.
+  Result<Made> compile(std::stop_token stop, std::size_t projector = 0);
 
  private:
   const Project& project_;
   const Assets& assets_;
   EngineChoice choice_;
-  CompileSettings settings_;
-  Compiler compiler_;
+  std::vector<CompileSettings> settings_;  ///< of each projector
+  std::vector<Compiler> compilers_;
   CoverageMeter meter_;
   ImagePool pool_;
   std::optional<Stage> stage_;
-  std::optional<Made> made_;
+  std::vector<std::optional<Made>> made_;
   std::shared_future<std::vector<ObjectCoverage>> coverage_;  ///< last: it works with all that stands above
 };
 

@@ -21,11 +21,12 @@ FrameQueue::~FrameQueue() {
   thread_.join();
 }
 
-Status FrameQueue::add(int frame, std::shared_ptr<const FrameImages> images, const FrameMeasure& measure) {
+Status FrameQueue::add(int frame, std::shared_ptr<const FrameImages> images, const FrameMeasure& measure,
+                       std::size_t projector) {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return fault_ || items_.size() < capacity; });
   if (fault_) return *fault_;
-  items_.push_back({frame, std::move(images), measure});
+  items_.push_back({frame, std::move(images), measure, projector});
   changed_.notify_all();
   return {};
 }
@@ -46,7 +47,7 @@ void FrameQueue::run() {
     items_.pop_front();
     writing_ = true;
     lock.unlock();
-    const Status written = writer_.add_frame(item.frame, *item.images, item.measure);
+    const Status written = writer_.add_frame(item.frame, *item.images, item.measure, item.projector);
     lock.lock();
     writing_ = false;
     if (!written && !fault_) {

@@ -23,7 +23,8 @@ class FrameQueue {
   FrameQueue& operator=(const FrameQueue&) = delete;
 
   /// Waits while the queue is full. A fault of the writer ends it: this and every later call returns it.
-  Status add(int frame, std::shared_ptr<const FrameImages> images, const FrameMeasure& measure);
+  Status add(int frame, std::shared_ptr<const FrameImages> images, const FrameMeasure& measure,
+             std::size_t projector = 0);
 
   /// Waits until all is written.
   Status drain();
@@ -33,6 +34,7 @@ class FrameQueue {
     int frame;
     std::shared_ptr<const FrameImages> images;
     FrameMeasure measure;
+    std::size_t projector;
   };
 
   void run();

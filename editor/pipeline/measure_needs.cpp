@@ -16,7 +16,7 @@ bool same_room(const Stage& a, const Stage& b) {
 Result<Needs> measure_needs(const Project& project, const Assets& assets, FrameRange frames,
                             const FrameProgress& progress, std::stop_token stop) {
   const CompileSettings settings = compile_settings(project);
-  NeedMeter meter(settings.projector, settings.lens_to_pupil_m, settings.slices.breathing);
+  NeedMeter meter(projectors_of(settings), settings.lens_to_pupil_m, settings.slices.breathing);
   Needs needs;
   std::optional<Stage> before;
   std::vector<ObjectNeeds> now;

@@ -10,11 +10,16 @@ double sum_of(const RetinaImage& image) { return std::accumulate(image.rgb.begin
 
 /// The part of the light that was meant for the other eye. A Retina of its own, because the one at work keeps maps of
 /// all exposures.
-Result<double> leaked_share(const RetinaInput& input, const RetinaView& view, double all, const std::stop_token& stop) {
-  RetinaInput others = input;
-  std::erase_if(others.exposures, [](const RetinaExposure& exposure) { return exposure.own; });
-  if (others.exposures.empty() || !(all > 0.0)) return 0.0;
-  const auto image = Retina().view(others, view, stop);
+Result<double> leaked_share(std::span<const RetinaInput> inputs, const RetinaView& view, double all,
+                            const std::stop_token& stop) {
+  std::vector<RetinaInput> others(inputs.begin(), inputs.end());
+  bool any = false;
+  for (RetinaInput& other : others) {
+    std::erase_if(other.exposures, [](const RetinaExposure& exposure) { return exposure.own; });
+    any = any || !other.exposures.empty();
+  }
+  if (!any || !(all > 0.0)) return 0.0;
+  const auto image = Retinas().view(others, view, stop);
   if (!image) return image.fault();
   return sum_of(*image) / all;
 }
@@ -28,22 +33,22 @@ RetinaView pinhole_of(const RetinaView& view) {
   return sharp;
 }
 
-Result<RetinaReport> report_on(Retina& retina, const RetinaInput& input, const RetinaView& view,
+Result<RetinaReport> report_on(Retinas& retinas, std::span<const RetinaInput> inputs, const RetinaView& view,
                                const ProjectorFlux& flux, std::stop_token stop) {
-  auto picture = retina.view(input, view, stop);
+  auto picture = retinas.view(inputs, view, stop);
   if (!picture) return picture.fault();
-  const auto focus = retina.driven_focus(input, view, stop);
+  const auto focus = retinas.driven_focus(inputs, view, stop);
   if (!focus) return focus.fault();
-  const auto pinhole = retina.view(input, pinhole_of(view), stop);
+  const auto pinhole = retinas.view(inputs, pinhole_of(view), stop);
   if (!pinhole) return pinhole.fault();
-  const auto leaked = leaked_share(input, view, sum_of(*picture), stop);
+  const auto leaked = leaked_share(inputs, view, sum_of(*picture), stop);
   if (!leaked) return leaked.fault();
 
   RetinaReport report;
   report.picture = *std::move(picture);
-  report.things = things_seen(input, view, flux, stop);
+  report.things = things_seen(inputs.front(), view, flux, stop);
   if (stop.stop_requested()) return Fault{"retina.cancelled", "", "stopped before the report was done", ""};
-  report.looks = thing_looks(report.things, report.picture, *pinhole, *focus, input, view);
+  report.looks = thing_looks(report.things, report.picture, *pinhole, *focus, inputs.front(), view);
   report.conflicts = thing_conflicts(report.things, *focus);
   report.conflict_d = conflict_map(report.things, *focus);
   report.leaked = *leaked;

@@ -1,12 +1,13 @@
 #pragma once
 
+#include <span>
 #include <stop_token>
 #include <vector>
 
 #include "core/percept/conflict.h"
 #include "core/percept/thing_look.h"
 #include "core/percept/things.h"
-#include "core/retina/retina.h"
+#include "core/retina/retinas.h"
 
 namespace focalstage {
 
@@ -23,9 +24,9 @@ struct RetinaReport {
 /// The same look through a pinhole of an ideal eye: what sharp would be.
 RetinaView pinhole_of(const RetinaView& view);
 
-/// Looks once as `view` says, once through a pinhole pupil to know what sharp would be. `retina` keeps what does not
+/// Looks once as `view` says, once through a pinhole pupil to know what sharp would be. `retinas` keep what does not
 /// change from one look to the next. Faults: those of Retina.
-Result<RetinaReport> report_on(Retina& retina, const RetinaInput& input, const RetinaView& view,
+Result<RetinaReport> report_on(Retinas& retinas, std::span<const RetinaInput> inputs, const RetinaView& view,
                                const ProjectorFlux& flux, std::stop_token stop);
 
 }  // namespace focalstage

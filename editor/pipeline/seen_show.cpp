@@ -31,21 +31,30 @@ Result<SeenShow> SeenShow::of(const ShowReader& show, const std::string& name, i
   if (!source) return source.fault();
   auto staged = stage(source->project, source->loaded.assets, (header.first_frame + frame) / header.rate_hz);
   if (!staged) return staged.fault();
-  auto images = show.frame(frame);
-  if (!images) return images.fault();
-
   SeenShow seen;
   seen.stage_ = *std::move(staged);
   place(header.poses[static_cast<std::size_t>(frame)], seen.stage_);
-  seen.settings_ = compile_settings(source->project);
-  seen.images_ = *std::move(images);
-  seen.schedule_ = header.schedule;
+  for (std::size_t i = 0; i < header.projectors(); ++i) {
+    auto images = show.frame(frame, i);
+    if (!images) return images.fault();
+    seen.images_.push_back(*std::move(images));
+    seen.settings_.push_back(compile_settings(source->project, i));
+    seen.schedules_.push_back(header.schedule);
+    seen.schedules_[i].slots = header.projector(i).slots;
+  }
   seen.glasses_ = glasses ? *glasses : worn_glasses(source->project.glasses);
   seen.room_ = room_light_of(source->project);
   seen.eye_ = eye;
   return seen;
 }
 
-RetinaInput SeenShow::input() const { return seen_frame(stage_, settings_, images_, schedule_, glasses_, eye_, room_); }
+std::vector<RetinaInput> SeenShow::inputs() const {
+  std::vector<RetinaInput> inputs;
+  for (std::size_t i = 0; i < images_.size(); ++i) {
+    const RoomLight room = i == 0 ? room_ : RoomLight{};
+    inputs.push_back(seen_frame(stage_, settings_[i], images_[i], schedules_[i], glasses_, eye_, room));
+  }
+  return inputs;
+}
 
 }  // namespace focalstage

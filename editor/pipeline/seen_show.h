@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/result.h"
 #include "core/base/sides.h"
@@ -22,16 +23,16 @@ class SeenShow {
   static Result<SeenShow> of(const ShowReader& show, const std::string& name, int frame, Side eye,
                              const std::optional<WornGlasses>& glasses = {});
 
-  /// Valid while this stays where it is.
-  RetinaInput input() const;
+  /// Of each projector; the first carries the room's light. Valid while this stays where it is.
+  std::vector<RetinaInput> inputs() const;
 
   const ProjectorFlux& flux() const { return room_.flux; }
 
  private:
   Stage stage_;
-  CompileSettings settings_;
-  FrameImages images_;
-  Schedule schedule_;
+  std::vector<CompileSettings> settings_;  ///< of each projector
+  std::vector<FrameImages> images_;
+  std::vector<Schedule> schedules_;
   WornGlasses glasses_;
   RoomLight room_;
   Side eye_ = Side::left;

@@ -22,8 +22,7 @@ Fault cancelled(const Project& project) { return {"solve.cancelled", project.nam
 Result<Measured> measured_by_compiling(const Project& project, const Assets& assets, const FrameProgress& progress,
                                        const std::stop_token& stop) {
   FrameMaker maker(project, assets, {});
-  const ScheduleResult schedule = make_schedule(project, maker.settings().images);
-  auto measured = measure_frames(maker, {{0, project.frames.count}, schedule.schedule}, progress, stop);
+  auto measured = measure_frames(maker, {{0, project.frames.count}, plain(schedules_of(maker))}, progress, stop);
   if (!measured && stop.stop_requested()) return cancelled(project);
   return measured;
 }
@@ -32,7 +31,9 @@ Result<Measured> measured_by_compiling(const Project& project, const Assets& ass
 bool widen(const Project& solved, const Measured& measured, Needs& needs) {
   const auto [lowest, highest] = std::minmax_element(solved.slices.powers_d.begin(), solved.slices.powers_d.end());
   bool widened = false;
-  for (const FrameMeasure& frame : measured.frames) {
+  std::vector<FrameMeasure> frames = measured.frames;
+  for (const std::vector<FrameMeasure>& more : measured.others) frames.insert(frames.end(), more.begin(), more.end());
+  for (const FrameMeasure& frame : frames) {
     for (const ObjectMeasure& object : frame.objects) {
       if (!(object.worst_beyond_d > most_beyond_d)) continue;
       ObjectNeeds more;

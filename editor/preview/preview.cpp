@@ -140,7 +140,7 @@ void Preview::State::check_measured(const PreviewWish& wish, const CompiledSlice
   const CompileSettings& settings = compiled.settings;
   const double aperture_m = wish.project->glasses.lens_aperture_mm / 1000.0;
   measured.coverage.push_back(
-      CoverageMeter(settings.projector, settings.lens_to_pupil_m, aperture_m).measure(*wish.stage));
+      CoverageMeter(projectors_of(settings), settings.lens_to_pupil_m, aperture_m).measure(*wish.stage));
   measured.meshes = mesh_states(*wish.project, *wish.stage);
   measured.lit = surfaces_in_light(*wish.project, *wish.stage);
   made->findings = check(*wish.project, made->schedule, measured, wish.models ? *wish.models : ProjectorModels{});

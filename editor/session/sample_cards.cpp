@@ -25,7 +25,7 @@ struct Described {
 };
 
 /// In the order in which they are best met.
-constexpr std::array<Described, 10> descriptions{{
+constexpr std::array<Described, 11> descriptions{{
     {"first-light", "A near rabbit and a far teapot on a slanted screen. Begin here."},
     {"three-rabbits", "Near, middle and far, each sharp with the real block beside it."},
     {"step-teapot", "A turning teapot across a real step, sharp on both planes."},
@@ -36,6 +36,7 @@ constexpr std::array<Described, 10> descriptions{{
     {"occlusion", "A near card before a far one, right at every focus."},
     {"moving-pictures", "Pictures on objects: 16 bits, a sequence that plays, a leaf cut out."},
     {"painted-wall", "Even light on bricks that lean away: codes make up for paint and black."},
+    {"two-projectors", "Two projectors on a folded screen, seen as one."},
 }};
 
 std::size_t place_of(std::string_view name) {

@@ -99,6 +99,7 @@ RigValues rig_values_of(const RigDescription& rig) {
     values.width_px = rig.projectors[0].width_px;
     values.height_px = rig.projectors[0].height_px;
     values.pixel_layout = rig.projectors[0].pixel_layout;
+    values.projectors = rig.projectors.size();
   }
   return values;
 }

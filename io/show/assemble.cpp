@@ -17,14 +17,14 @@
 namespace focalstage {
 namespace {
 
-void create_images(Hdf5Out& out, const ShowHeader& header, const ChunkGrid& grid) {
-  std::vector<hsize_t> shape{static_cast<hsize_t>(header.frames), header.images.size(), grid.height, grid.width};
+void create_images(Hdf5Out& out, std::size_t projector, hsize_t frames, hsize_t images, const ChunkGrid& grid) {
+  std::vector<hsize_t> shape{frames, images, grid.height, grid.width};
   std::vector<hsize_t> chunk{1, 1, grid.rows, grid.columns};
   if (grid.channels != 1) {
     shape.push_back(grid.channels);
     chunk.push_back(grid.channels);
   }
-  out.chunked("/projector/0/images", shape, chunk, compression_level);
+  out.chunked((projector_group(projector) + "/images").c_str(), shape, chunk, compression_level);
 }
 
 void write_frame(Hdf5Out& out, std::size_t frame, const PackedFrame& packed, const ChunkGrid& grid) {
@@ -54,13 +54,20 @@ Status reserve(const std::filesystem::path& path, std::uint64_t bytes) {
   return {};
 }
 
-/// No less than what the assembled file takes: the log's bytes, an index entry per chunk, and the header's tables.
-std::uint64_t room_for(const ShowHeader& header, const PartLog& log, const ChunkGrid& grid) {
+ChunkGrid grid_of(const ShowProjector& projector) {
+  return chunk_grid(projector.width_px, projector.height_px, projector.channels);
+}
+
+/// No less than what the assembled file takes: the logs' bytes, an index entry per chunk, and the header's tables.
+std::uint64_t room_for(const ShowHeader& header, const std::vector<PartLog>& logs) {
   const std::uint64_t frames = static_cast<std::uint64_t>(header.frames);
   const std::uint64_t things = header.poses[0].surfaces.size() + header.poses[0].objects.size() + 2;
-  std::uint64_t bytes = (1u << 20) + log.bytes() + header.project_text.size();
-  bytes += frames * header.images.size() * grid.per_image() * 128;
-  bytes += frames * things * 128 + header.images.size() * 256 + header.schedule.slots.size() * 256;
+  std::uint64_t bytes = (1u << 20) + header.project_text.size();
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const ShowProjector projector = header.projector(i);
+    bytes += logs[i].bytes() + frames * projector.images.size() * grid_of(projector).per_image() * 128;
+    bytes += frames * things * 128 + projector.images.size() * 256 + projector.slots.size() * 256;
+  }
   bytes += header.schedule.lens_power_d.left.size() * 32 + header.cues.size() * 256;
   for (const AssetFile& asset : header.assets) bytes += asset.bytes.size() + 4096;
   return bytes;
@@ -71,22 +78,33 @@ Fault fault_of(const Hdf5Error& error, const std::filesystem::path& path) {
   return {"show.unwritable", path.string(), "the HDF5 library refuses to write it (" + error.message + ")", ""};
 }
 
-Status write_hdf5(const std::filesystem::path& path, const ShowHeader& header, const PartLog& log,
-                  std::stop_token stop) {
-  const Hdf5Session session;
-  const ChunkGrid grid = chunk_grid(header.width_px, header.height_px, header.channels);
-  Hdf5Out out(path, seal_bytes);
-  if (out.error()) return fault_of(*out.error(), path);
-  if (Status room = reserve(path, room_for(header, log, grid)); !room) return room;
-
-  write_header(out, header, log.measures());
-  create_images(out, header, grid);
+Status write_images(Hdf5Out& out, const std::filesystem::path& path, const ShowHeader& header, std::size_t projector,
+                    const PartLog& log, const std::stop_token& stop) {
+  const ShowProjector one = header.projector(projector);
+  const ChunkGrid grid = grid_of(one);
+  create_images(out, projector, static_cast<hsize_t>(header.frames), one.images.size(), grid);
   for (std::size_t frame = 0; frame < log.measures().size() && !out.error(); ++frame) {
     if (stop.stop_requested())
       return Fault{"show.cancelled", path.string(), "writing the show was stopped", "compile again with --resume"};
     const Result<PackedFrame> packed = log.read(frame);
     if (!packed) return packed.fault();
     write_frame(out, frame, *packed, grid);
+  }
+  return {};
+}
+
+Status write_hdf5(const std::filesystem::path& path, const ShowHeader& header, const std::vector<PartLog>& logs,
+                  const std::stop_token& stop) {
+  const Hdf5Session session;
+  Hdf5Out out(path, seal_bytes);
+  if (out.error()) return fault_of(*out.error(), path);
+  if (Status room = reserve(path, room_for(header, logs)); !room) return room;
+
+  std::vector<const std::vector<FrameMeasure>*> measures;
+  for (const PartLog& log : logs) measures.push_back(&log.measures());
+  write_header(out, header, measures);
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    if (Status written = write_images(out, path, header, i, logs[i], stop); !written) return written;
   }
   out.close();
   if (out.error()) return fault_of(*out.error(), path);
@@ -95,8 +113,9 @@ Status write_hdf5(const std::filesystem::path& path, const ShowHeader& header, c
 
 }  // namespace
 
-Status assemble(const std::filesystem::path& path, const ShowHeader& header, const PartLog& log, std::stop_token stop) {
-  if (Status written = write_hdf5(path, header, log, stop); !written) return written;
+Status assemble(const std::filesystem::path& path, const ShowHeader& header, const std::vector<PartLog>& logs,
+                std::stop_token stop) {
+  if (Status written = write_hdf5(path, header, logs, stop); !written) return written;
   const DiskFile file = open_file(path, O_RDWR);
   if (!file.is_open()) return write_fault(path, errno);
   // Gives back what was reserved beyond the end.

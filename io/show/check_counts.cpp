@@ -18,10 +18,15 @@ Status check_counts(const ShowHeader& header, const std::string& source) {
     return differs("/pose/surfaces", "it has not the surfaces of /project");
   if (poses.objects.size() != project.objects.size())
     return differs("/pose/objects", "it has not the objects of /project");
-  const bool known = std::all_of(header.images.begin(), header.images.end(), [&](const ImageSpec& image) {
-    return image.slice < static_cast<int>(project.slices.powers_d.size());
-  });
-  if (!known) return differs("/projector/0/image/slice", "it names a slice that /project has not");
+  if (header.projectors() > std::max<std::size_t>(project.projectors.size(), 1))
+    return differs("/projector", "it has more projectors than /project");
+  for (std::size_t i = 0; i < header.projectors(); ++i) {
+    const std::vector<ImageSpec> images = header.projector(i).images;
+    const bool known = std::all_of(images.begin(), images.end(), [&](const ImageSpec& image) {
+      return image.slice < static_cast<int>(project.slices.powers_d.size());
+    });
+    if (!known) return differs(projector_group(i) + "/image/slice", "it names a slice that /project has not");
+  }
   return {};
 }
 

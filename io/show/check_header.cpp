@@ -51,37 +51,49 @@ void check_assets(const ShowHeader& header, Check& check) {
   }
 }
 
-void check_images(const ShowHeader& header, Check& check) {
-  const bool sized = header.width_px >= 1 && header.width_px <= max_side_px && header.height_px >= 1 &&
-                     header.height_px <= max_side_px && (header.channels == 1 || header.channels == 3);
-  check.demand(sized && header.frames >= 1 && header.images.size() <= max_images, "/projector/0/images",
+void check_images(const ShowProjector& projector, int frames, const std::string& group, Check& check) {
+  const bool sized = projector.width_px >= 1 && projector.width_px <= max_side_px && projector.height_px >= 1 &&
+                     projector.height_px <= max_side_px && (projector.channels == 1 || projector.channels == 3);
+  check.demand(sized && frames >= 1 && projector.images.size() <= max_images, group + "/images",
                "its shape is out of range");
-  for (const ImageSpec& image : header.images) {
+  for (const ImageSpec& image : projector.images) {
     const int eye = static_cast<int>(image.eye);
     const int kind = static_cast<int>(image.kind);
-    check.demand(eye >= 0 && eye <= 2, "/projector/0/image/eye", "it must be 0, 1 or 2");
-    check.demand(kind >= 0 && kind <= 2, "/projector/0/image/kind", "it must be 0, 1 or 2");
-    check.demand(finite(image.power_d), "/projector/0/image/power_d", "it is not finite");
-    check.demand(image.slice >= -1, "/projector/0/image/slice", "it must be -1 or an index");
+    check.demand(eye >= 0 && eye <= 2, group + "/image/eye", "it must be 0, 1 or 2");
+    check.demand(kind >= 0 && kind <= 2, group + "/image/kind", "it must be 0, 1 or 2");
+    check.demand(finite(image.power_d), group + "/image/power_d", "it is not finite");
+    check.demand(image.slice >= -1, group + "/image/slice", "it must be -1 or an index");
   }
 }
 
-void check_slots(const ShowHeader& header, Check& check) {
+void check_slots(const ShowProjector& projector, const std::string& group, Check& check) {
   double last_start_s = -INFINITY;
-  for (const Slot& slot : header.schedule.slots) {
-    const bool known = slot.image >= 0 && static_cast<std::size_t>(slot.image) < header.images.size();
-    check.demand(known, "/projector/0/slot/image", "it names an image that is not there");
+  for (const Slot& slot : projector.slots) {
+    const bool known = slot.image >= 0 && static_cast<std::size_t>(slot.image) < projector.images.size();
+    check.demand(known, group + "/slot/image", "it names an image that is not there");
     if (!known) return;
-    const ImageEye eye = header.images[static_cast<std::size_t>(slot.image)].eye;
-    check.demand(slot.eye == Side::left || slot.eye == Side::right, "/projector/0/slot/eye", "it must be 0 or 1");
-    check.demand(eye == ImageEye::both || static_cast<int>(eye) == static_cast<int>(slot.eye), "/projector/0/slot/eye",
+    const ImageEye eye = projector.images[static_cast<std::size_t>(slot.image)].eye;
+    check.demand(slot.eye == Side::left || slot.eye == Side::right, group + "/slot/eye", "it must be 0 or 1");
+    check.demand(eye == ImageEye::both || static_cast<int>(eye) == static_cast<int>(slot.eye), group + "/slot/eye",
                  "it shows the other eye's image");
-    check.demand(finite(slot.start_s) && slot.start_s >= last_start_s, "/projector/0/slot/start_s",
+    check.demand(finite(slot.start_s) && slot.start_s >= last_start_s, group + "/slot/start_s",
                  "exposures are not in time order");
-    check.demand(positive(slot.exposure_s), "/projector/0/slot/exposure_s", "it must be above 0");
-    check.demand(finite(slot.trigger_s), "/projector/0/slot/trigger_s", "it is not finite");
-    check.demand(finite(slot.power_d) && finite(slot.smear_d), "/projector/0/slot/power_d", "it is not finite");
+    check.demand(positive(slot.exposure_s), group + "/slot/exposure_s", "it must be above 0");
+    check.demand(finite(slot.trigger_s), group + "/slot/trigger_s", "it is not finite");
+    check.demand(finite(slot.power_d) && finite(slot.smear_d), group + "/slot/power_d", "it is not finite");
     last_start_s = slot.start_s;
+  }
+}
+
+void check_projectors(const ShowHeader& header, Check& check) {
+  for (std::size_t i = 0; i < header.projectors(); ++i) {
+    const ShowProjector projector = header.projector(i);
+    const std::string group = projector_group(i);
+    if (i > 0) {
+      check.demand(positive(projector.frames_per_second), group + " attribute frames_per_second", "it must be above 0");
+    }
+    check_images(projector, header.frames, group, check);
+    check_slots(projector, group, check);
   }
 }
 
@@ -131,8 +143,7 @@ Status check_header(const ShowHeader& header, const std::string& source) {
   Check check{source, {}};
   check_scalars(header, check);
   check_assets(header, check);
-  check_images(header, check);
-  check_slots(header, check);
+  check_projectors(header, check);
   check_lens(header, check);
   check_poses(header, check);
   check_cues(header, check);

@@ -74,6 +74,13 @@ class Feed {
     (*this)(poses.objects);
   }
 
+  void operator()(const ShowProjector& projector) {
+    (*this)(projector.frames_per_second);
+    for (const int number : {projector.width_px, projector.height_px, projector.channels}) (*this)(number);
+    (*this)(projector.images);
+    (*this)(projector.slots);
+  }
+
   void operator()(const ShowCue& cue) {
     (*this)(std::string_view(cue.name));
     (*this)(cue.frame);
@@ -104,6 +111,7 @@ Sha256Value fingerprint_of(const ShowHeader& header) {
   feed(header.schedule);
   feed(header.poses);
   feed(header.cues);
+  if (!header.others.empty()) feed(header.others);
   return feed.value();
 }
 

@@ -171,11 +171,12 @@ std::vector<std::string> Hdf5In::names(const char* group_name) {
 
 Hdf5In::Shape Hdf5In::open_chunked(const char* name, const Shape& expected) {
   if (!ok()) return {};
-  chunked_ = Hdf5Id(H5Dopen2(file_, name, H5P_DEFAULT), H5Dclose);
-  if (!chunked_.ok()) return refuse(name, "it is missing"), Shape{};
-  const Hdf5Id type(H5Dget_type(chunked_), H5Tclose);
+  chunked_.emplace_back(H5Dopen2(file_, name, H5P_DEFAULT), H5Dclose);
+  const Hdf5Id& opened = chunked_.back();
+  if (!opened.ok()) return refuse(name, "it is missing"), Shape{};
+  const Hdf5Id type(H5Dget_type(opened), H5Tclose);
   if (H5Tequal(type, H5T_STD_U8LE) <= 0) return refuse(name, "its type is not uint8"), Shape{};
-  const Hdf5Id space(H5Dget_space(chunked_), H5Sclose);
+  const Hdf5Id space(H5Dget_space(opened), H5Sclose);
   const Shape shape = shape_of(space);
   Shape colored = expected;
   colored.push_back(3);
@@ -184,8 +185,8 @@ Hdf5In::Shape Hdf5In::open_chunked(const char* name, const Shape& expected) {
   return shape;
 }
 
-bool Hdf5In::chunked_as(const Shape& chunk) {
-  const Hdf5Id properties(H5Dget_create_plist(chunked_), H5Pclose);
+bool Hdf5In::chunked_as(std::size_t dataset, const Shape& chunk) {
+  const Hdf5Id properties(H5Dget_create_plist(chunked_.at(dataset)), H5Pclose);
   std::vector<hsize_t> extents(chunk.size());
   if (!properties.ok() || H5Pget_layout(properties) != H5D_CHUNKED) return false;
   const int dimensions = H5Pget_chunk(properties, static_cast<int>(extents.size()), extents.data());
@@ -197,9 +198,9 @@ bool Hdf5In::chunked_as(const Shape& chunk) {
          H5Pget_filter2(properties, 0, &flags, &values, nullptr, 0, nullptr, nullptr) == H5Z_FILTER_DEFLATE;
 }
 
-std::optional<std::vector<std::uint8_t>> Hdf5In::chunk(const std::vector<hsize_t>& offset) {
+std::optional<std::vector<std::uint8_t>> Hdf5In::chunk(std::size_t dataset, const std::vector<hsize_t>& offset) {
   hsize_t size = 0;
-  if (H5Dget_chunk_storage_size(chunked_, offset.data(), &size) < 0) {
+  if (H5Dget_chunk_storage_size(chunked_[dataset], offset.data(), &size) < 0) {
     // The library calls it an error to ask after a chunk that was never stored.
     if (last_hdf5_error().message == "chunk storage is not allocated") return std::vector<std::uint8_t>{};
     return {};
@@ -207,7 +208,7 @@ std::optional<std::vector<std::uint8_t>> Hdf5In::chunk(const std::vector<hsize_t
   if (size > file_bytes_) return {};
   std::vector<std::uint8_t> stream(static_cast<std::size_t>(size));
   std::uint32_t skipped_filters = 0;
-  if (size > 0 && (H5Dread_chunk(chunked_, H5P_DEFAULT, offset.data(), &skipped_filters, stream.data()) < 0 ||
+  if (size > 0 && (H5Dread_chunk(chunked_[dataset], H5P_DEFAULT, offset.data(), &skipped_filters, stream.data()) < 0 ||
                    skipped_filters != 0)) {
     H5Eclear2(H5E_DEFAULT);
     return {};

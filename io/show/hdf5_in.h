@@ -46,12 +46,13 @@ class Hdf5In {
   /// The names in a group, in alphabetical order.
   std::vector<std::string> names(const char* group);
 
-  /// A dataset of deflated byte chunks of `chunk`; its shape, which fits `expected` or is one longer and ends with 3.
+  /// Opens a dataset of deflated byte chunks, which the calls below number in the order of opening; its shape, which
+  /// fits `expected` or is one longer and ends with 3.
   Shape open_chunked(const char* name, const Shape& expected);
-  bool chunked_as(const Shape& chunk);
+  bool chunked_as(std::size_t dataset, const Shape& chunk);
 
   /// The stored bytes of the chunk at `offset`; empty where it is not stored, nothing where that fails.
-  std::optional<std::vector<std::uint8_t>> chunk(const std::vector<hsize_t>& offset);
+  std::optional<std::vector<std::uint8_t>> chunk(std::size_t dataset, const std::vector<hsize_t>& offset);
 
   /// For what a caller finds wrong in a dataset.
   void refuse(const std::string& dataset, const std::string& message);
@@ -77,7 +78,7 @@ class Hdf5In {
   std::filesystem::path path_;
   std::uint64_t file_bytes_ = 0;
   Hdf5Id file_;
-  Hdf5Id chunked_;
+  std::vector<Hdf5Id> chunked_;
   std::optional<Fault> fault_;
 };
 

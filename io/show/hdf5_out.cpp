@@ -125,6 +125,7 @@ void Hdf5Out::chunked(const char* name, const std::vector<hsize_t>& shape, const
     demand(H5Pset_deflate(properties, level) >= 0);
     demand(H5Pset_fill_value(properties, H5T_NATIVE_UINT8, &black) >= 0);
   }
+  demand(chunked_.close());
   chunked_ = Hdf5Id(H5Dcreate2(file_, name, H5T_STD_U8LE, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose);
   demand(chunked_.ok());
 }

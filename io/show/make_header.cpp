@@ -25,6 +25,16 @@ int frame_of(const Cue& cue, const Frames& frames) {
 
 }  // namespace
 
+ShowProjector show_projector(const Project& project, std::size_t i, const CompileSettings& settings,
+                             const Schedule& schedule) {
+  return {project.projectors.at(i).frames_per_second,
+          settings.projector.width_px,
+          settings.projector.height_px,
+          settings.channels,
+          settings.images,
+          schedule.slots};
+}
+
 ShowHeader make_show_header(const Project& project, std::string text, const LoadedAssets& assets,
                             const Schedule& schedule, const CompileSettings& settings, FrameRange range) {
   ShowHeader header;

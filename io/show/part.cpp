@@ -20,10 +20,11 @@ constexpr std::chrono::milliseconds sync_every{500};
 
 }  // namespace
 
-Result<PartLog> PartLog::open(const std::filesystem::path& folder, const PartKey& key, bool resume) {
+Result<PartLog> PartLog::open(const std::filesystem::path& folder, const PartKey& key, bool resume,
+                              std::size_t projector) {
   PartLog log;
   log.folder_ = folder;
-  log.path_ = folder / "frames.log";
+  log.path_ = folder / (projector == 0 ? "frames.log" : "frames-" + std::to_string(projector) + ".log");
   log.key_ = key;
   log.records_.resize(key.frames);
   log.measures_.assign(key.frames, spread({}, key.objects, key.surfaces));

@@ -26,7 +26,7 @@ struct PartKey {
   std::size_t surfaces = 0;
 };
 
-/// The append-only log of finished frames in `SHOW.h5.part/`. One record per frame:
+/// The append-only log of finished frames of one projector in `SHOW.h5.part/`. One record per frame:
 ///
 ///   u32 "FRAM", u32 frame, u64 body bytes, u32 CRC-32 of the body, u32 CRC-32 of these first 20 bytes
 ///   body: what was measured; u32 size of every chunk; the chunks
@@ -37,7 +37,9 @@ class PartLog {
  public:
   /// Opens or makes the log in `folder` and holds it against other writers ("show.busy"). With `resume`, keeps the
   /// frames of a log with the same key; anything else is started over.
-  static Result<PartLog> open(const std::filesystem::path& folder, const PartKey& key, bool resume);
+  /// Each projector of a show has a log of its own.
+  static Result<PartLog> open(const std::filesystem::path& folder, const PartKey& key, bool resume,
+                              std::size_t projector = 0);
 
   bool has(std::size_t frame) const { return records_[frame].bytes != 0; }
   const std::vector<FrameMeasure>& measures() const { return measures_; }

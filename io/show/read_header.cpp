@@ -45,44 +45,85 @@ void read_assets(Hdf5In& in, ShowHeader& header) {
             [](const AssetFile& a, const AssetFile& b) { return a.path < b.path; });
 }
 
-void read_shape(Hdf5In& in, ShowHeader& header) {
-  const auto shape = in.open_chunked("/projector/0/images", {Hdf5In::any, Hdf5In::any, Hdf5In::any, Hdf5In::any});
-  if (!in.ok()) return;
+/// Frames, and what the shape of the images says of the projector.
+int read_shape(Hdf5In& in, const std::string& group, ShowProjector& projector) {
+  const std::string name = group + "/images";
+  const auto shape = in.open_chunked(name.c_str(), {Hdf5In::any, Hdf5In::any, Hdf5In::any, Hdf5In::any});
+  if (!in.ok()) return 0;
   const bool small = std::all_of(shape.begin(), shape.end(), [](std::size_t extent) {
     return extent <= static_cast<std::size_t>(std::numeric_limits<int>::max());
   });
-  if (!small) return in.refuse("/projector/0/images", "its shape is out of range");
-  header.frames = static_cast<int>(shape[0]);
-  header.images.resize(std::min<std::size_t>(shape[1], 1u << 16));
-  header.height_px = static_cast<int>(shape[2]);
-  header.width_px = static_cast<int>(shape[3]);
-  header.channels = shape.size() == 5 ? 3 : 1;
+  if (!small) return in.refuse(name, "its shape is out of range"), 0;
+  projector.images.resize(std::min<std::size_t>(shape[1], 1u << 16));
+  projector.height_px = static_cast<int>(shape[2]);
+  projector.width_px = static_cast<int>(shape[3]);
+  projector.channels = shape.size() == 5 ? 3 : 1;
+  return static_cast<int>(shape[0]);
 }
 
-void read_image_table(Hdf5In& in, ShowHeader& header) {
-  const std::size_t count = header.images.size();
-  const auto eye = in.numbers<std::uint8_t>("/projector/0/image/eye", {count});
-  const auto kind = in.numbers<std::uint8_t>("/projector/0/image/kind", {count});
-  const auto power_d = in.numbers<double>("/projector/0/image/power_d", {count});
-  const auto slice = in.numbers<std::int32_t>("/projector/0/image/slice", {count});
+void read_image_table(Hdf5In& in, const std::string& group, std::vector<ImageSpec>& images) {
+  const std::size_t count = images.size();
+  const auto eye = in.numbers<std::uint8_t>((group + "/image/eye").c_str(), {count});
+  const auto kind = in.numbers<std::uint8_t>((group + "/image/kind").c_str(), {count});
+  const auto power_d = in.numbers<double>((group + "/image/power_d").c_str(), {count});
+  const auto slice = in.numbers<std::int32_t>((group + "/image/slice").c_str(), {count});
   if (!in.ok()) return;
   for (std::size_t i = 0; i < count; ++i)
-    header.images[i] = {static_cast<ImageEye>(eye[i]), static_cast<ImageKind>(kind[i]), power_d[i], slice[i]};
+    images[i] = {static_cast<ImageEye>(eye[i]), static_cast<ImageKind>(kind[i]), power_d[i], slice[i]};
 }
 
-void read_slots(Hdf5In& in, Schedule& schedule) {
-  const auto image = in.numbers<std::int32_t>("/projector/0/slot/image", {Hdf5In::any});
+std::vector<Slot> read_slots(Hdf5In& in, const std::string& group) {
+  std::vector<Slot> slots;
+  const auto image = in.numbers<std::int32_t>((group + "/slot/image").c_str(), {Hdf5In::any});
   const std::size_t count = image.size();
-  const auto eye = in.numbers<std::uint8_t>("/projector/0/slot/eye", {count});
-  const auto start_s = in.numbers<double>("/projector/0/slot/start_s", {count});
-  const auto exposure_s = in.numbers<double>("/projector/0/slot/exposure_s", {count});
-  const auto trigger_s = in.numbers<double>("/projector/0/slot/trigger_s", {count});
-  const auto power_d = in.numbers<double>("/projector/0/slot/power_d", {count});
-  const auto smear_d = in.numbers<double>("/projector/0/slot/smear_d", {count});
-  if (!in.ok()) return;
+  const auto eye = in.numbers<std::uint8_t>((group + "/slot/eye").c_str(), {count});
+  const auto start_s = in.numbers<double>((group + "/slot/start_s").c_str(), {count});
+  const auto exposure_s = in.numbers<double>((group + "/slot/exposure_s").c_str(), {count});
+  const auto trigger_s = in.numbers<double>((group + "/slot/trigger_s").c_str(), {count});
+  const auto power_d = in.numbers<double>((group + "/slot/power_d").c_str(), {count});
+  const auto smear_d = in.numbers<double>((group + "/slot/smear_d").c_str(), {count});
+  if (!in.ok()) return slots;
   for (std::size_t i = 0; i < count; ++i) {
-    schedule.slots.push_back(
+    slots.push_back(
         {image[i], static_cast<Side>(eye[i]), start_s[i], exposure_s[i], trigger_s[i], power_d[i], smear_d[i]});
+  }
+  return slots;
+}
+
+int read_projector(Hdf5In& in, std::size_t i, ShowProjector& projector) {
+  const std::string group = projector_group(i);
+  const int frames = read_shape(in, group, projector);
+  read_image_table(in, group, projector.images);
+  projector.slots = read_slots(in, group);
+  return frames;
+}
+
+/// How many groups /projector has; they are numbered from 0.
+std::size_t count_projectors(Hdf5In& in) {
+  constexpr std::size_t most = 64;
+  const std::vector<std::string> names = in.names("/projector");
+  if (names.size() > most) in.refuse("/projector", "it holds more than 64 projectors");
+  for (std::size_t i = 0; in.ok() && i < names.size(); ++i) {
+    if (std::find(names.begin(), names.end(), std::to_string(i)) == names.end())
+      in.refuse(projector_group(i), "it is missing");
+  }
+  return in.ok() ? std::max<std::size_t>(names.size(), 1) : 1;
+}
+
+void read_projectors(Hdf5In& in, ShowHeader& header) {
+  ShowProjector first;
+  header.frames = read_projector(in, 0, first);
+  header.width_px = first.width_px;
+  header.height_px = first.height_px;
+  header.channels = first.channels;
+  header.images = std::move(first.images);
+  header.schedule.slots = std::move(first.slots);
+  const std::size_t count = count_projectors(in);
+  for (std::size_t i = 1; in.ok() && i < count; ++i) {
+    ShowProjector& other = header.others.emplace_back();
+    other.frames_per_second = in.attribute<double>(projector_group(i).c_str(), "frames_per_second");
+    if (read_projector(in, i, other) != header.frames && in.ok())
+      in.refuse(projector_group(i) + "/images", "it has not the frames of /projector/0");
   }
 }
 
@@ -144,106 +185,11 @@ ShowHeader read_header(Hdf5In& in) {
   ShowHeader header;
   read_root(in, header);
   read_assets(in, header);
-  read_shape(in, header);
-  read_image_table(in, header);
-  read_slots(in, header.schedule);
+  read_projectors(in, header);
   read_rig(in, header.schedule);
   read_poses(in, header);
   read_cues(in, header);
   return header;
-}
-
-namespace {
-
-/// Shows of other assignments than `optimal` have none of it.
-void read_optimal(Hdf5In& in, std::vector<FrameMeasure>& measures) {
-  const std::vector<std::string> names = in.names("/measure");
-  if (std::find(names.begin(), names.end(), "optimal_tiles") == names.end()) return;
-  const Hdf5In::Shape shape{measures.size(), 2};
-  const auto tiles = in.numbers<std::uint64_t>("/measure/optimal_tiles", shape);
-  const auto accepted = in.numbers<std::uint64_t>("/measure/optimal_accepted_tiles", shape);
-  const auto left = in.numbers<std::uint64_t>("/measure/optimal_left_tiles", shape);
-  const auto values = in.numbers<std::uint64_t>("/measure/optimal_values", shape);
-  const auto linear = in.numbers<double>("/measure/optimal_linear_error", shape);
-  const auto optimal = in.numbers<double>("/measure/optimal_error", shape);
-  for (const auto* numbers : {&linear, &optimal}) {
-    const bool sums =
-        std::all_of(numbers->begin(), numbers->end(), [](double d) { return std::isfinite(d) && d >= 0.0; });
-    if (!sums) in.refuse("/measure", "it is no sum of squares");
-  }
-  if (!in.ok()) return;
-  for (std::size_t k = 0; k < measures.size(); ++k) {
-    for (const Side side : both_sides) {
-      const std::size_t at = 2 * k + index_of(side);
-      measures[k].optimal[side] = {tiles[at], accepted[at], left[at], values[at], linear[at], optimal[at]};
-    }
-  }
-}
-
-/// Shows without compensation have none of it.
-void read_asked(Hdf5In& in, std::size_t surfaces, std::vector<FrameMeasure>& measures) {
-  const std::vector<std::string> names = in.names("/measure");
-  if (std::find(names.begin(), names.end(), "surface_lit") == names.end()) return;
-  const Hdf5In::Shape shape{measures.size(), surfaces}, by_channel{measures.size(), surfaces, 3};
-  const auto lit = in.numbers<std::uint64_t>("/measure/surface_lit", shape);
-  const auto too_bright = in.numbers<std::uint64_t>("/measure/surface_too_bright", shape);
-  const auto too_dark = in.numbers<std::uint64_t>("/measure/surface_too_dark", shape);
-  const auto bright = in.numbers<std::uint64_t>("/measure/surface_bright_in", by_channel);
-  const auto dark = in.numbers<std::uint64_t>("/measure/surface_dark_in", by_channel);
-  const auto most = in.numbers<double>("/measure/surface_most", shape);
-  const auto least = in.numbers<double>("/measure/surface_least", shape);
-  for (const auto* numbers : {&most, &least}) {
-    const bool finite = std::all_of(numbers->begin(), numbers->end(), [](double d) { return std::isfinite(d); });
-    if (!finite) in.refuse("/measure", "it is not finite");
-  }
-  if (!in.ok()) return;
-  for (std::size_t k = 0; k < measures.size(); ++k) {
-    for (std::size_t i = 0; i < surfaces; ++i) {
-      const std::size_t at = k * surfaces + i;
-      measures[k].surfaces.push_back({i,
-                                      lit[at],
-                                      too_bright[at],
-                                      too_dark[at],
-                                      {bright[3 * at], bright[3 * at + 1], bright[3 * at + 2]},
-                                      {dark[3 * at], dark[3 * at + 1], dark[3 * at + 2]},
-                                      most[at],
-                                      least[at]});
-    }
-  }
-}
-
-}  // namespace
-
-std::vector<FrameMeasure> read_measures(Hdf5In& in, const ShowHeader& header) {
-  const std::size_t frames = static_cast<std::size_t>(header.frames);
-  const std::size_t objects = header.poses.at(0).objects.size();
-  const auto lit = in.numbers<std::uint64_t>("/measure/lit_pixels", {frames});
-  const auto clipped = in.numbers<std::uint64_t>("/measure/clipped_pixels", {frames});
-  const auto surface = in.numbers<std::uint64_t>("/measure/surface_pixels", {frames});
-  const auto defocused = in.numbers<std::uint64_t>("/measure/defocused_pixels", {frames});
-  const auto worst_defocus_d = in.numbers<double>("/measure/worst_defocus_d", {frames});
-  const auto samples = in.numbers<std::uint64_t>("/measure/object_samples", {frames, objects});
-  const auto beyond = in.numbers<std::uint64_t>("/measure/object_beyond", {frames, objects});
-  const auto worst_beyond_d = in.numbers<double>("/measure/object_worst_beyond_d", {frames, objects});
-  const auto worst_below_d = in.numbers<double>("/measure/object_worst_below_d", {frames, objects});
-  const auto worst_above_d = in.numbers<double>("/measure/object_worst_above_d", {frames, objects});
-  for (const auto* numbers : {&worst_defocus_d, &worst_beyond_d, &worst_below_d, &worst_above_d}) {
-    const bool finite = std::all_of(numbers->begin(), numbers->end(), [](double d) { return std::isfinite(d); });
-    if (!finite) in.refuse("/measure", "it is not finite");
-  }
-  std::vector<FrameMeasure> measures;
-  if (!in.ok()) return measures;
-  for (std::size_t k = 0; k < frames; ++k) {
-    FrameMeasure measure{lit[k], clipped[k], surface[k], defocused[k], worst_defocus_d[k], {}, {}, {}};
-    for (std::size_t i = 0; i < objects; ++i) {
-      const std::size_t at = k * objects + i;
-      measure.objects.push_back({i, samples[at], beyond[at], worst_beyond_d[at], worst_below_d[at], worst_above_d[at]});
-    }
-    measures.push_back(std::move(measure));
-  }
-  read_optimal(in, measures);
-  read_asked(in, header.poses.at(0).surfaces.size(), measures);
-  return measures;
 }
 
 }  // namespace focalstage

@@ -12,7 +12,7 @@ namespace focalstage {
 /// are for `check_header`.
 ShowHeader read_header(Hdf5In& in);
 
-/// What was measured of the frames of `header`.
-std::vector<FrameMeasure> read_measures(Hdf5In& in, const ShowHeader& header);
+/// What was measured of the frames of `header` as one projector makes them.
+std::vector<FrameMeasure> read_measures(Hdf5In& in, const ShowHeader& header, std::size_t projector);
 
 }  // namespace focalstage

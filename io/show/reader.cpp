@@ -22,8 +22,8 @@ struct ShowReader::State {
   DiskFile file;
   std::string sha256;
   ShowHeader header;
-  std::vector<FrameMeasure> measures;
-  ChunkGrid grid;
+  std::vector<std::vector<FrameMeasure>> measures;  ///< of each projector
+  std::vector<ChunkGrid> grids;
   std::optional<Hdf5In> hdf5;
 
   ~State() {
@@ -75,10 +75,13 @@ Result<ShowReader> ShowReader::open(const std::filesystem::path& path) {
     if (!in.ok()) return in.fault();
     if (Status valid = check_header(state->header, path.string()); !valid) return valid.fault();
     if (Status valid = check_counts(state->header, path.string()); !valid) return valid.fault();
-    state->measures = read_measures(in, state->header);
-    state->grid = chunk_grid(state->header.width_px, state->header.height_px, state->header.channels);
-    if (!state->header.images.empty() && !in.chunked_as(chunk_shape(state->grid)))
-      in.refuse("/projector/0/images", "its chunks have not the shape and filter of a show's");
+    for (std::size_t i = 0; i < state->header.projectors(); ++i) {
+      const ShowProjector projector = state->header.projector(i);
+      state->measures.push_back(read_measures(in, state->header, i));
+      state->grids.push_back(chunk_grid(projector.width_px, projector.height_px, projector.channels));
+      if (!projector.images.empty() && !in.chunked_as(i, chunk_shape(state->grids[i])))
+        in.refuse(projector_group(i) + "/images", "its chunks have not the shape and filter of a show's");
+    }
     if (!in.ok()) return in.fault();
     return ShowReader(std::move(state));
   } catch (const std::bad_alloc&) {
@@ -89,19 +92,21 @@ Result<ShowReader> ShowReader::open(const std::filesystem::path& path) {
 }
 
 const ShowHeader& ShowReader::header() const { return state_->header; }
-const std::vector<FrameMeasure>& ShowReader::measures() const { return state_->measures; }
+const std::vector<FrameMeasure>& ShowReader::measures(std::size_t projector) const {
+  return state_->measures.at(projector);
+}
 const std::string& ShowReader::sha256() const { return state_->sha256; }
 
 namespace {
 
 /// Fills `images` with the images of `frame` from `first_image` on; false where a chunk is damaged.
-bool fill(Hdf5In& in, const ChunkGrid& grid, int frame, int first_image, FrameImages& images) {
+bool fill(Hdf5In& in, std::size_t projector, const ChunkGrid& grid, int frame, int first_image, FrameImages& images) {
   std::vector<std::vector<std::uint8_t>> streams(images.count * grid.per_image());
   {
     const Hdf5Session session;
     for (std::size_t i = 0; i < streams.size(); ++i) {
       const int image = first_image + static_cast<int>(i / grid.per_image());
-      auto stream = in.chunk(chunk_offset(grid, frame, image, i % grid.per_image()));
+      auto stream = in.chunk(projector, chunk_offset(grid, frame, image, i % grid.per_image()));
       if (!stream) return false;
       streams[i] = std::move(*stream);
     }
@@ -118,27 +123,30 @@ bool fill(Hdf5In& in, const ChunkGrid& grid, int frame, int first_image, FrameIm
 
 }  // namespace
 
-Result<FrameImages> ShowReader::images(int frame, int first_image, int count) const {
+Result<FrameImages> ShowReader::images(int frame, std::size_t projector, int first_image, int count) const {
   const ShowHeader& header = state_->header;
+  const ShowProjector one = header.projector(projector);
   const std::string name = "frame " + std::to_string(frame);
-  const int last_image = static_cast<int>(header.images.size()) - count;
+  const int last_image = static_cast<int>(one.images.size()) - count;
   if (frame < 0 || frame >= header.frames || first_image < 0 || first_image > last_image)
     return Fault{"show.frame", state_->path.string(), name + " or its image is beyond the show's end", ""};
   try {
-    FrameImages images{static_cast<std::size_t>(count), header.width_px, header.height_px, header.channels, {}};
+    FrameImages images{static_cast<std::size_t>(count), one.width_px, one.height_px, one.channels, {}};
     images.codes.resize(images.count * images.bytes_per_image());
-    if (fill(*state_->hdf5, state_->grid, frame, first_image, images)) return images;
+    if (fill(*state_->hdf5, projector, state_->grids[projector], frame, first_image, images)) return images;
   } catch (const std::bad_alloc&) {
     return too_large(state_->path);
   }
-  return Fault{"show.damaged", state_->path.string() + ": /projector/0/images", name + " cannot be read",
-               "copy it again, or compile the show again"};
+  return Fault{"show.damaged", state_->path.string() + ": " + projector_group(projector) + "/images",
+               name + " cannot be read", "copy it again, or compile the show again"};
 }
 
-Result<FrameImages> ShowReader::frame(int frame) const {
-  return images(frame, 0, static_cast<int>(state_->header.images.size()));
+Result<FrameImages> ShowReader::frame(int frame, std::size_t projector) const {
+  return images(frame, projector, 0, static_cast<int>(state_->header.projector(projector).images.size()));
 }
 
-Result<FrameImages> ShowReader::image(int frame, int image) const { return images(frame, image, 1); }
+Result<FrameImages> ShowReader::image(int frame, int image, std::size_t projector) const {
+  return images(frame, projector, image, 1);
+}
 
 }  // namespace focalstage

@@ -23,20 +23,20 @@ class ShowReader {
 
   const ShowHeader& header() const;
 
-  /// What compiling measured, per frame; objects in the project's order.
-  const std::vector<FrameMeasure>& measures() const;
+  /// What compiling measured for a projector, per frame; objects in the project's order.
+  const std::vector<FrameMeasure>& measures(std::size_t projector = 0) const;
 
   /// Lower-case hex SHA-256 of the show as its seal holds it (io/show/seal.h): names the show.
   const std::string& sha256() const;
 
-  /// All images of one frame, or one of them.
-  Result<FrameImages> frame(int frame) const;
-  Result<FrameImages> image(int frame, int image) const;
+  /// All images of one frame, or one of them, of a projector.
+  Result<FrameImages> frame(int frame, std::size_t projector = 0) const;
+  Result<FrameImages> image(int frame, int image, std::size_t projector = 0) const;
 
  private:
   struct State;
   explicit ShowReader(std::unique_ptr<State> state);
-  Result<FrameImages> images(int frame, int first_image, int count) const;
+  Result<FrameImages> images(int frame, std::size_t projector, int first_image, int count) const;
   std::unique_ptr<State> state_;
 };
 

@@ -39,6 +39,18 @@ struct ShowCue {
 /// What this program signs its shows with: "focalstage 0.1.0".
 std::string this_compiler();
 
+/// What a show holds of one projector, apart from its images.
+struct ShowProjector {
+  double frames_per_second = 2000.0;
+  int width_px = 0;
+  int height_px = 0;
+  int channels = 1;
+  std::vector<ImageSpec> images;
+  std::vector<Slot> slots;
+
+  bool operator==(const ShowProjector&) const = default;
+};
+
 /// Everything in a show file but the images of its frames (design section 7).
 struct ShowHeader {
   std::string compiler = this_compiler();
@@ -56,9 +68,16 @@ struct ShowHeader {
   Schedule schedule;
   std::vector<FramePoses> poses;
   std::vector<ShowCue> cues;
+  std::vector<ShowProjector> others{};  ///< projectors 1 and up; the first one's are the fields above
+
+  std::size_t projectors() const { return 1 + others.size(); }
+  ShowProjector projector(std::size_t i) const;
 
   bool operator==(const ShowHeader&) const = default;
 };
+
+/// The group of a show file that holds projector number `i`: "/projector/0".
+std::string projector_group(std::size_t i);
 
 /// A half-open range of the project's frames.
 struct FrameRange {
@@ -70,6 +89,10 @@ struct FrameRange {
 /// cues after the project's end fall on its last frame. `text`: the project's file as read.
 ShowHeader make_show_header(const Project& project, std::string text, const LoadedAssets& assets,
                             const Schedule& schedule, const CompileSettings& settings, FrameRange range);
+
+/// What the show holds of projector number `i`, compiled by `settings` and timed by `schedule`.
+ShowProjector show_projector(const Project& project, std::size_t i, const CompileSettings& settings,
+                             const Schedule& schedule);
 
 /// What keeps a header from being a show's (sizes, ranges, order), as a Fault "show.invalid" that names the dataset in
 /// `source`. The writer and the reader hold every header against it.

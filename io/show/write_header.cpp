@@ -51,27 +51,36 @@ void write_assets(Hdf5Out& out, const ShowHeader& header) {
   }
 }
 
-void write_image_table(Hdf5Out& out, const ShowHeader& header) {
-  const auto& images = header.images;
+void write_image_table(Hdf5Out& out, const std::vector<ImageSpec>& images, const std::string& group) {
   const std::size_t count = images.size();
-  out.group("/projector/0/image");
-  out.dataset("/projector/0/image/eye", {count}, column<std::uint8_t>(images, [](auto& i) { return i.eye; }));
-  out.dataset("/projector/0/image/kind", {count}, column<std::uint8_t>(images, [](auto& i) { return i.kind; }));
-  out.dataset("/projector/0/image/power_d", {count}, column<double>(images, [](auto& i) { return i.power_d; }));
-  out.dataset("/projector/0/image/slice", {count}, column<std::int32_t>(images, [](auto& i) { return i.slice; }));
+  const auto name = [&](const char* last) { return group + "/image" + last; };
+  out.group(name("").c_str());
+  out.dataset(name("/eye").c_str(), {count}, column<std::uint8_t>(images, [](auto& i) { return i.eye; }));
+  out.dataset(name("/kind").c_str(), {count}, column<std::uint8_t>(images, [](auto& i) { return i.kind; }));
+  out.dataset(name("/power_d").c_str(), {count}, column<double>(images, [](auto& i) { return i.power_d; }));
+  out.dataset(name("/slice").c_str(), {count}, column<std::int32_t>(images, [](auto& i) { return i.slice; }));
 }
 
-void write_slots(Hdf5Out& out, const ShowHeader& header) {
-  const auto& slots = header.schedule.slots;
+void write_slots(Hdf5Out& out, const std::vector<Slot>& slots, const std::string& group) {
   const std::size_t count = slots.size();
-  out.group("/projector/0/slot");
-  out.dataset("/projector/0/slot/image", {count}, column<std::int32_t>(slots, [](auto& s) { return s.image; }));
-  out.dataset("/projector/0/slot/eye", {count}, column<std::uint8_t>(slots, [](auto& s) { return s.eye; }));
-  out.dataset("/projector/0/slot/start_s", {count}, column<double>(slots, [](auto& s) { return s.start_s; }));
-  out.dataset("/projector/0/slot/exposure_s", {count}, column<double>(slots, [](auto& s) { return s.exposure_s; }));
-  out.dataset("/projector/0/slot/trigger_s", {count}, column<double>(slots, [](auto& s) { return s.trigger_s; }));
-  out.dataset("/projector/0/slot/power_d", {count}, column<double>(slots, [](auto& s) { return s.power_d; }));
-  out.dataset("/projector/0/slot/smear_d", {count}, column<double>(slots, [](auto& s) { return s.smear_d; }));
+  const auto name = [&](const char* last) { return group + "/slot" + last; };
+  out.group(name("").c_str());
+  out.dataset(name("/image").c_str(), {count}, column<std::int32_t>(slots, [](auto& s) { return s.image; }));
+  out.dataset(name("/eye").c_str(), {count}, column<std::uint8_t>(slots, [](auto& s) { return s.eye; }));
+  out.dataset(name("/start_s").c_str(), {count}, column<double>(slots, [](auto& s) { return s.start_s; }));
+  out.dataset(name("/exposure_s").c_str(), {count}, column<double>(slots, [](auto& s) { return s.exposure_s; }));
+  out.dataset(name("/trigger_s").c_str(), {count}, column<double>(slots, [](auto& s) { return s.trigger_s; }));
+  out.dataset(name("/power_d").c_str(), {count}, column<double>(slots, [](auto& s) { return s.power_d; }));
+  out.dataset(name("/smear_d").c_str(), {count}, column<double>(slots, [](auto& s) { return s.smear_d; }));
+}
+
+/// The rate of the first is the show's.
+void write_projector(Hdf5Out& out, const ShowProjector& projector, std::size_t i) {
+  const std::string group = projector_group(i);
+  out.group(group.c_str());
+  if (i > 0) out.attribute(group.c_str(), "frames_per_second", projector.frames_per_second);
+  write_image_table(out, projector.images, group);
+  write_slots(out, projector.slots, group);
 }
 
 std::vector<double> both_rows(const PerEye<std::vector<double>>& rows) {
@@ -115,7 +124,7 @@ void write_cues(Hdf5Out& out, const ShowHeader& header) {
 }
 
 /// Of the assignment `optimal` alone; other shows have no such datasets.
-void write_optimal(Hdf5Out& out, const std::vector<FrameMeasure>& measures) {
+void write_optimal(Hdf5Out& out, const std::vector<FrameMeasure>& measures, const std::string& group) {
   std::vector<OptimalMeasure> eyes;
   for (const FrameMeasure& measure : measures) {
     eyes.push_back(measure.optimal.left);
@@ -123,85 +132,90 @@ void write_optimal(Hdf5Out& out, const std::vector<FrameMeasure>& measures) {
   }
   if (std::all_of(eyes.begin(), eyes.end(), [](auto& eye) { return eye == OptimalMeasure{}; })) return;
   const auto counts = [&](const char* name, auto get) {
-    out.dataset(name, {measures.size(), 2}, column<std::uint64_t>(eyes, get));
+    out.dataset((group + "/" + name).c_str(), {measures.size(), 2}, column<std::uint64_t>(eyes, get));
   };
   const auto sums = [&](const char* name, auto get) {
-    out.dataset(name, {measures.size(), 2}, column<double>(eyes, get));
+    out.dataset((group + "/" + name).c_str(), {measures.size(), 2}, column<double>(eyes, get));
   };
-  counts("/measure/optimal_tiles", [](auto& eye) { return eye.tiles; });
-  counts("/measure/optimal_accepted_tiles", [](auto& eye) { return eye.accepted_tiles; });
-  counts("/measure/optimal_left_tiles", [](auto& eye) { return eye.left_tiles; });
-  counts("/measure/optimal_values", [](auto& eye) { return eye.values; });
-  sums("/measure/optimal_linear_error", [](auto& eye) { return eye.linear_error; });
-  sums("/measure/optimal_error", [](auto& eye) { return eye.optimal_error; });
+  counts("optimal_tiles", [](auto& eye) { return eye.tiles; });
+  counts("optimal_accepted_tiles", [](auto& eye) { return eye.accepted_tiles; });
+  counts("optimal_left_tiles", [](auto& eye) { return eye.left_tiles; });
+  counts("optimal_values", [](auto& eye) { return eye.values; });
+  sums("optimal_linear_error", [](auto& eye) { return eye.linear_error; });
+  sums("optimal_error", [](auto& eye) { return eye.optimal_error; });
 }
 
 bool is_asked(const SurfaceAsked& surface) { return surface.lit_pixels > 0; }
 
 /// With compensation alone; other shows have no such datasets.
-void write_asked(Hdf5Out& out, const std::vector<FrameMeasure>& measures) {
+void write_asked(Hdf5Out& out, const std::vector<FrameMeasure>& measures, const std::string& group) {
   std::vector<SurfaceAsked> rows;
   for (const FrameMeasure& measure : measures)
     rows.insert(rows.end(), measure.surfaces.begin(), measure.surfaces.end());
   if (std::none_of(rows.begin(), rows.end(), is_asked)) return;
   const std::size_t frames = measures.size(), surfaces = measures[0].surfaces.size();
   const auto counts = [&](const char* name, auto get) {
-    out.dataset(name, {frames, surfaces}, column<std::uint64_t>(rows, get));
+    out.dataset((group + "/" + name).c_str(), {frames, surfaces}, column<std::uint64_t>(rows, get));
   };
-  counts("/measure/surface_lit", [](auto& s) { return s.lit_pixels; });
-  counts("/measure/surface_too_bright", [](auto& s) { return s.too_bright; });
-  counts("/measure/surface_too_dark", [](auto& s) { return s.too_dark; });
+  counts("surface_lit", [](auto& s) { return s.lit_pixels; });
+  counts("surface_too_bright", [](auto& s) { return s.too_bright; });
+  counts("surface_too_dark", [](auto& s) { return s.too_dark; });
   std::vector<std::uint64_t> bright, dark;
   for (const SurfaceAsked& row : rows) {
     bright.insert(bright.end(), row.bright_in.begin(), row.bright_in.end());
     dark.insert(dark.end(), row.dark_in.begin(), row.dark_in.end());
   }
-  out.dataset("/measure/surface_bright_in", {frames, surfaces, 3}, bright);
-  out.dataset("/measure/surface_dark_in", {frames, surfaces, 3}, dark);
-  out.dataset("/measure/surface_most", {frames, surfaces}, column<double>(rows, [](auto& s) { return s.most; }));
-  out.dataset("/measure/surface_least", {frames, surfaces}, column<double>(rows, [](auto& s) { return s.least; }));
+  out.dataset((group + "/surface_bright_in").c_str(), {frames, surfaces, 3}, bright);
+  out.dataset((group + "/surface_dark_in").c_str(), {frames, surfaces, 3}, dark);
+  out.dataset((group + "/surface_most").c_str(), {frames, surfaces},
+              column<double>(rows, [](auto& s) { return s.most; }));
+  out.dataset((group + "/surface_least").c_str(), {frames, surfaces},
+              column<double>(rows, [](auto& s) { return s.least; }));
 }
 
-void write_measures(Hdf5Out& out, const std::vector<FrameMeasure>& measures) {
+void write_measures(Hdf5Out& out, const std::vector<FrameMeasure>& measures, const std::string& group) {
   const std::size_t frames = measures.size();
   const std::size_t objects = measures[0].objects.size();
   std::vector<ObjectMeasure> rows;
   for (const FrameMeasure& measure : measures) rows.insert(rows.end(), measure.objects.begin(), measure.objects.end());
   const auto counts = [&](auto get) { return column<std::uint64_t>(measures, get); };
-  out.group("/measure");
-  out.dataset("/measure/lit_pixels", {frames}, counts([](auto& m) { return m.lit_pixels; }));
-  out.dataset("/measure/clipped_pixels", {frames}, counts([](auto& m) { return m.clipped_pixels; }));
-  out.dataset("/measure/surface_pixels", {frames}, counts([](auto& m) { return m.surface_pixels; }));
-  out.dataset("/measure/defocused_pixels", {frames}, counts([](auto& m) { return m.defocused_pixels; }));
-  out.dataset("/measure/worst_defocus_d", {frames},
+  out.group(group.c_str());
+  out.dataset((group + "/lit_pixels").c_str(), {frames}, counts([](auto& m) { return m.lit_pixels; }));
+  out.dataset((group + "/clipped_pixels").c_str(), {frames}, counts([](auto& m) { return m.clipped_pixels; }));
+  out.dataset((group + "/surface_pixels").c_str(), {frames}, counts([](auto& m) { return m.surface_pixels; }));
+  out.dataset((group + "/defocused_pixels").c_str(), {frames}, counts([](auto& m) { return m.defocused_pixels; }));
+  out.dataset((group + "/worst_defocus_d").c_str(), {frames},
               column<double>(measures, [](auto& m) { return m.worst_defocus_d; }));
-  out.dataset("/measure/object_samples", {frames, objects},
+  out.dataset((group + "/object_samples").c_str(), {frames, objects},
               column<std::uint64_t>(rows, [](auto& o) { return o.samples; }));
-  out.dataset("/measure/object_beyond", {frames, objects},
+  out.dataset((group + "/object_beyond").c_str(), {frames, objects},
               column<std::uint64_t>(rows, [](auto& o) { return o.beyond; }));
-  out.dataset("/measure/object_worst_beyond_d", {frames, objects},
+  out.dataset((group + "/object_worst_beyond_d").c_str(), {frames, objects},
               column<double>(rows, [](auto& o) { return o.worst_beyond_d; }));
-  out.dataset("/measure/object_worst_below_d", {frames, objects},
+  out.dataset((group + "/object_worst_below_d").c_str(), {frames, objects},
               column<double>(rows, [](auto& o) { return o.worst_below_d; }));
-  out.dataset("/measure/object_worst_above_d", {frames, objects},
+  out.dataset((group + "/object_worst_above_d").c_str(), {frames, objects},
               column<double>(rows, [](auto& o) { return o.worst_above_d; }));
-  write_optimal(out, measures);
-  write_asked(out, measures);
+  write_optimal(out, measures, group);
+  write_asked(out, measures, group);
 }
 
 }  // namespace
 
-void write_header(Hdf5Out& out, const ShowHeader& header, const std::vector<FrameMeasure>& measures) {
+void write_header(Hdf5Out& out, const ShowHeader& header,
+                  const std::vector<const std::vector<FrameMeasure>*>& measures) {
   write_root(out, header);
   write_assets(out, header);
   out.group("/projector");
-  out.group("/projector/0");
-  write_image_table(out, header);
-  write_slots(out, header);
+  write_projector(out, header.projector(0), 0);
   write_rig(out, header.schedule);
   write_poses(out, header);
   write_cues(out, header);
-  write_measures(out, measures);
+  write_measures(out, *measures.at(0), "/measure");
+  for (std::size_t i = 1; i < header.projectors(); ++i) {
+    write_projector(out, header.projector(i), i);
+    write_measures(out, *measures.at(i), projector_group(i) + "/measure");
+  }
 }
 
 }  // namespace focalstage

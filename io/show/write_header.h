@@ -8,7 +8,9 @@
 
 namespace focalstage {
 
-/// Everything of a show but its images, in one fixed order (design section 7, docs/formats/show.md).
-void write_header(Hdf5Out& out, const ShowHeader& header, const std::vector<FrameMeasure>& measures);
+/// Everything of a show but its images, in one fixed order (design section 7, docs/formats/show.md). `measures`: of the
+/// frames of each projector.
+void write_header(Hdf5Out& out, const ShowHeader& header,
+                  const std::vector<const std::vector<FrameMeasure>*>& measures);
 
 }  // namespace focalstage

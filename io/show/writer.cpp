@@ -24,19 +24,19 @@ namespace focalstage {
 struct ShowWriter::State {
   std::filesystem::path path;
   ShowHeader header;
-  ChunkGrid grid;
-  PartLog log;
+  std::vector<ChunkGrid> grids;  ///< of each projector
+  std::vector<PartLog> logs;
   tbb::task_arena arena;
-  mutable std::mutex mutex;  ///< of the log
+  mutable std::mutex mutex;  ///< of the logs
 
   std::filesystem::path temporary() const { return path.string() + ".tmp"; }
 };
 
 namespace {
 
-PartKey part_key(const ShowHeader& header, const ChunkGrid& grid) {
-  return {sha256_of(header.project_text),          fingerprint_of(header), static_cast<std::size_t>(header.frames),
-          header.images.size() * grid.per_image(), grid.bytes(),           header.poses[0].objects.size(),
+PartKey part_key(const ShowHeader& header, std::size_t images, const ChunkGrid& grid) {
+  return {sha256_of(header.project_text), fingerprint_of(header), static_cast<std::size_t>(header.frames),
+          images * grid.per_image(),      grid.bytes(),           header.poses[0].objects.size(),
           header.poses[0].surfaces.size()};
 }
 
@@ -49,9 +49,9 @@ Status check_asset_hashes(const ShowHeader& header, const std::string& where) {
   return {};
 }
 
-bool fits(const FrameImages& images, const ShowHeader& header) {
-  return images.count == header.images.size() && images.width_px == header.width_px &&
-         images.height_px == header.height_px && images.channels == header.channels &&
+bool fits(const FrameImages& images, const ShowProjector& projector) {
+  return images.count == projector.images.size() && images.width_px == projector.width_px &&
+         images.height_px == projector.height_px && images.channels == projector.channels &&
          images.codes.size() == images.count * images.bytes_per_image();
 }
 
@@ -71,36 +71,53 @@ Result<ShowWriter> ShowWriter::start(const std::filesystem::path& path, const Sh
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) return write_fault(path, EISDIR);
 
-  const ChunkGrid grid = chunk_grid(header.width_px, header.height_px, header.channels);
-  Result<PartLog> log = PartLog::open(where + ".part", part_key(header, grid), resume);
-  if (!log) return log.fault();
   const int all = tbb::info::default_concurrency();
   const int concurrency = threads > 0 ? std::min(threads, all) : all;
-  auto state = std::unique_ptr<State>(new State{path, header, grid, std::move(*log), tbb::task_arena(concurrency), {}});
+  auto state = std::unique_ptr<State>(new State{path, header, {}, {}, tbb::task_arena(concurrency), {}});
+  for (std::size_t i = 0; i < header.projectors(); ++i) {
+    const ShowProjector one = header.projector(i);
+    const ChunkGrid grid = chunk_grid(one.width_px, one.height_px, one.channels);
+    Result<PartLog> log = PartLog::open(where + ".part", part_key(header, one.images.size(), grid), resume, i);
+    if (!log) return log.fault();
+    state->grids.push_back(grid);
+    state->logs.push_back(std::move(*log));
+  }
   std::filesystem::remove(state->temporary(), error);
   return ShowWriter(std::move(state));
 }
 
 bool ShowWriter::has_frame(int frame) const {
   const std::scoped_lock lock(state_->mutex);
-  return frame >= 0 && frame < state_->header.frames && state_->log.has(static_cast<std::size_t>(frame));
+  return frame >= 0 && frame < state_->header.frames &&
+         std::all_of(state_->logs.begin(), state_->logs.end(),
+                     [&](const PartLog& log) { return log.has(static_cast<std::size_t>(frame)); });
 }
 
-const std::vector<FrameMeasure>& ShowWriter::measures() const { return state_->log.measures(); }
+bool ShowWriter::has_frame(int frame, std::size_t projector) const {
+  const std::scoped_lock lock(state_->mutex);
+  return frame >= 0 && frame < state_->header.frames && state_->logs.at(projector).has(static_cast<std::size_t>(frame));
+}
 
-Status ShowWriter::add_frame(int frame, const FrameImages& images, const FrameMeasure& measure) {
+const std::vector<FrameMeasure>& ShowWriter::measures(std::size_t projector) const {
+  return state_->logs.at(projector).measures();
+}
+
+Status ShowWriter::add_frame(int frame, const FrameImages& images, const FrameMeasure& measure, std::size_t projector) {
   const auto refused = [&](const std::string& why) {
     return Fault{"show.frame", state_->path.string(), "frame " + std::to_string(frame) + " " + why, ""};
   };
   if (frame < 0 || frame >= state_->header.frames) return refused("is beyond the show's end");
-  if (!fits(images, state_->header)) return refused("has not the images that the header announces");
-  if (has_frame(frame)) return refused("is already there");
+  if (projector >= state_->logs.size()) return refused("is of a projector that the show has not");
+  if (!fits(images, state_->header.projector(projector)))
+    return refused("has not the images that the header announces");
+  if (has_frame(frame, projector)) return refused("is already there");
   try {
     PackedFrame packed;
-    state_->arena.execute([&] { packed = pack(images, state_->grid); });
+    state_->arena.execute([&] { packed = pack(images, state_->grids[projector]); });
     const std::scoped_lock lock(state_->mutex);
-    if (state_->log.has(static_cast<std::size_t>(frame))) return refused("is already there");
-    return state_->log.append(static_cast<std::size_t>(frame), measure, packed);
+    PartLog& log = state_->logs[projector];
+    if (log.has(static_cast<std::size_t>(frame))) return refused("is already there");
+    return log.append(static_cast<std::size_t>(frame), measure, packed);
   } catch (const std::bad_alloc&) {
     return refused("does not fit into memory");
   }
@@ -109,22 +126,25 @@ Status ShowWriter::add_frame(int frame, const FrameImages& images, const FrameMe
 Status ShowWriter::finish(std::stop_token stop) {
   const std::scoped_lock lock(state_->mutex);
   for (int frame = 0; frame < state_->header.frames; ++frame) {
-    if (!state_->log.has(static_cast<std::size_t>(frame))) {
+    const auto there = [&](const PartLog& log) { return log.has(static_cast<std::size_t>(frame)); };
+    if (!std::all_of(state_->logs.begin(), state_->logs.end(), there)) {
       return Fault{"show.missing-frame", state_->path.string(),
                    "frame " + std::to_string(frame) + " was never compiled", "compile again with --resume"};
     }
   }
-  if (Status synced = state_->log.sync(); !synced) return synced;
+  for (PartLog& log : state_->logs) {
+    if (Status synced = log.sync(); !synced) return synced;
+  }
   const std::filesystem::path temporary = state_->temporary();
   std::error_code ignored;
-  Status written = assemble(temporary, state_->header, state_->log, stop);
+  Status written = assemble(temporary, state_->header, state_->logs, stop);
   if (written && ::rename(temporary.c_str(), state_->path.c_str()) != 0) written = write_fault(state_->path, errno);
   if (!written) {
     std::filesystem::remove(temporary, ignored);
     return written;
   }
   if (!sync_directory(folder_of(state_->path))) return write_fault(state_->path, errno);
-  state_->log.remove();
+  for (PartLog& log : state_->logs) log.remove();
   return {};
 }
 

@@ -25,16 +25,19 @@ class ShowWriter {
   ShowWriter& operator=(ShowWriter&&) noexcept;
   ~ShowWriter();
 
+  /// Of every projector, or of one.
   bool has_frame(int frame) const;
+  bool has_frame(int frame, std::size_t projector) const;
 
-  /// Compresses the images of one frame in parallel and appends them, with what compiling measured. In any order, from
-  /// any thread. A process killed after it returns has lost nothing; a power cut, at most the last half second.
-  /// Faults: "show.disk-full", "show.unwritable", "show.frame" (wrong size or number, or already there).
-  Status add_frame(int frame, const FrameImages& images, const FrameMeasure& measure = {});
+  /// Compresses the images that one projector shows in a frame in parallel and appends them, with what compiling
+  /// measured. In any order, from any thread. A process killed after it returns has lost nothing; a power cut, at most
+  /// the last half second. Faults: "show.disk-full", "show.unwritable", "show.frame" (wrong size or number, or already
+  /// there).
+  Status add_frame(int frame, const FrameImages& images, const FrameMeasure& measure = {}, std::size_t projector = 0);
 
   /// What was measured of every frame there is, those of an earlier run included. Objects stand in the project's order,
   /// those not staged with zeros.
-  const std::vector<FrameMeasure>& measures() const;
+  const std::vector<FrameMeasure>& measures(std::size_t projector = 0) const;
 
   /// Assembles the show and removes the part. Every frame must be there ("show.missing-frame"). A stop leaves the part
   /// for a later resume ("show.cancelled").

@@ -31,29 +31,44 @@ Project load(const std::string& code) {
   return loaded->project;
 }
 
-/// All that `compile` finds: every frame staged, compiled and looked at.
+/// All that `compile` finds: every frame staged, compiled and looked at, for every projector.
 std::vector<Finding> findings_of(const Project& project) {
-  const CompileSettings settings = compile_settings(project);
-  Compiler compiler(settings, 1);
-  CoverageMeter meter(settings.projector, settings.lens_to_pupil_m, project.glasses.lens_aperture_mm / 1000.0);
-  const Schedule schedule = make_schedule(project, settings.images).schedule;
-  ConflictMeter conflict(project, settings, schedule);
+  std::vector<CompileSettings> settings;
+  std::vector<Compiler> compilers;
+  std::vector<ScheduleResult> timed;
+  std::vector<Schedule> schedules;
+  for (std::size_t i = 0; i < project.projectors.size(); ++i) {
+    settings.push_back(compile_settings(project, i));
+    compilers.emplace_back(settings[i], 1);
+    timed.push_back(make_schedule(project, settings[i].images, i));
+    schedules.push_back(timed[i].schedule);
+  }
+  CoverageMeter meter(projectors_of(settings[0]), settings[0].lens_to_pupil_m,
+                      project.glasses.lens_aperture_mm / 1000.0);
+  ConflictMeter conflict(project, settings, schedules);
   const Result<LoadedAssets> loaded = load_assets(project, folder / project.name);
   REQUIRE(loaded);
   Measured measured;
+  measured.others.resize(settings.size() - 1);
   for (int frame = 0; frame < project.frames.count; ++frame) {
     const Result<Stage> staged = stage(project, loaded->assets, frame / project.frames.rate_hz);
     REQUIRE(staged.ok());
     if (frame == 0) measured.meshes = mesh_states(project, *staged);
     if (frame == 0) measured.lit = surfaces_in_light(project, *staged);
-    Result<CompiledFrame> compiled = compiler.frame(*staged);
-    REQUIRE(compiled.ok());
-    measured.frames.push_back(compiled->measure);
+    std::vector<FrameImages> images;
+    for (std::size_t i = 0; i < compilers.size(); ++i) {
+      Result<CompiledFrame> compiled = compilers[i].frame(*staged);
+      REQUIRE(compiled.ok());
+      (i == 0 ? measured.frames : measured.others[i - 1]).push_back(compiled->measure);
+      images.push_back(std::move(compiled->images));
+    }
+    std::vector<const FrameImages*> shown;
+    for (const FrameImages& one : images) shown.push_back(&one);
     measured.coverage.push_back(meter.measure(*staged));
-    REQUIRE(conflict.add(*staged, compiled->images, {}));
+    REQUIRE(conflict.add(*staged, shown, {}));
   }
   measured.conflicts = conflict.conflicts();
-  return check(project, make_schedule(project, settings.images), measured, support::models());
+  return check(project, timed, measured, support::models());
 }
 
 std::set<std::string> codes(const std::vector<Finding>& findings) {
@@ -102,6 +117,20 @@ TEST_CASE("slices.spacing") { check_code("slices.spacing", Severity::warning, tr
 TEST_CASE("slices.outside-sweep") { check_code("slices.outside-sweep", Severity::error, true); }
 TEST_CASE("schedule.hidden-by-shutter") { check_code("schedule.hidden-by-shutter", Severity::error, true); }
 TEST_CASE("schedule.overlap") { check_code("schedule.overlap", Severity::error, true); }
+TEST_CASE("schedule.projectors-differ") { check_code("schedule.projectors-differ", Severity::warning, true); }
+TEST_CASE("schedule.projectors-differ: what one shows and another cannot is an error") {
+  Project project = load("schedule.projectors-differ");
+  project.projectors[1].exposure_ms = project.projectors[0].exposure_ms;
+  REQUIRE(findings_of(project).empty());
+  project.projectors[1].exposure_ms = 7.0;  // into the shutters' dead windows
+  const std::vector<Finding> findings = findings_of(project);
+  const auto differ = std::find_if(findings.begin(), findings.end(), [](const Finding& finding) {
+    return finding.code == "schedule.projectors-differ" && finding.severity == Severity::error;
+  });
+  REQUIRE(differ != findings.end());
+  CHECK(differ->where == "/projectors/1");
+  CHECK(count(findings, "schedule.hidden-by-shutter") > 0);
+}
 TEST_CASE("schedule.smear") { check_code("schedule.smear", Severity::warning, true); }
 TEST_CASE("schedule.bit-depth") { check_code("schedule.bit-depth", Severity::error, true); }
 TEST_CASE("schedule.no-zero-crossing") { check_code("schedule.no-zero-crossing", Severity::error, true); }
@@ -159,11 +188,30 @@ TEST_CASE("rig.differs") {
   CHECK(rig_differences(*adopted, rig).empty());
 }
 
+TEST_CASE("rig.differs: a rig that has fewer projectors, which no edit of ours mends") {
+  Project project = load("rig.differs");
+  RigValues rig;
+  rig.latency_ms = project.projectors[0].latency_ms;
+  rig.width_px = project.projectors[0].width_px;
+  rig.height_px = project.projectors[0].height_px;
+  project.projectors.push_back(project.projectors[0]);
+  project.projectors[1].name = "beside";
+  const std::vector<Finding> findings = rig_differences(project, rig);
+  REQUIRE(findings.size() == 1);
+  CHECK(findings[0].code == "rig.differs");
+  CHECK(findings[0].where == "/projectors/1");
+  CHECK(findings[0].message.find("\"beside\" would stay dark") != std::string::npos);
+  CHECK(findings[0].remedy.empty());
+  rig.projectors = 2;
+  CHECK(rig_differences(project, rig).empty());
+}
+
 TEST_CASE("every project here belongs to a test, and every code of the design to a project") {
   const std::set<std::string> expected{"slices.spacing",
                                        "slices.outside-sweep",
                                        "schedule.hidden-by-shutter",
                                        "schedule.overlap",
+                                       "schedule.projectors-differ",
                                        "schedule.smear",
                                        "schedule.bit-depth",
                                        "schedule.no-zero-crossing",

@@ -51,14 +51,14 @@ TEST_CASE("a board seen through a power is sharpest at 1/d - v") {
   for (const double power_d : {0.0, 0.8}) {
     CAPTURE(power_d);
     const Grating grating(power_d);
-    Retina retina;
+    Retinas retina;
     std::vector<int> taken;
     const auto take = [&](int i, const RetinaImage& picture) {
       CHECK(picture.width_px == 200);
       taken.push_back(i);
       return Status();
     };
-    const auto sweep = sweep_focus(retina, grating.input, small_view(), {}, {0.6, 2.6, 11}, take, {});
+    const auto sweep = sweep_focus(retina, {&grating.input, 1}, small_view(), {}, {0.6, 2.6, 11}, take, {});
     REQUIRE(sweep);
     CHECK(taken == std::vector{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10});
     CHECK(sweep->focus_d.front() == 0.6);
@@ -72,20 +72,20 @@ TEST_CASE("a board seen through a power is sharpest at 1/d - v") {
 
 TEST_CASE("who takes the pictures can end the sweep, and so can a stop request") {
   const Grating grating(0.0);
-  Retina retina;
+  Retinas retina;
   int taken = 0;
   const auto full = [&](int i, const RetinaImage&) {
     ++taken;
     return i < 2 ? Status() : Status(Fault{"file.unwritable", "", "the disk is full", ""});
   };
-  const auto sweep = sweep_focus(retina, grating.input, small_view(), {}, {1.0, 3.0, 9}, full, {});
+  const auto sweep = sweep_focus(retina, {&grating.input, 1}, small_view(), {}, {1.0, 3.0, 9}, full, {});
   REQUIRE_FALSE(sweep);
   CHECK(sweep.fault().code == "file.unwritable");
   CHECK(taken == 3);
 
   std::stop_source stop;
   const auto stopped = sweep_focus(
-      retina, grating.input, small_view(), {}, {1.0, 3.0, 9},
+      retina, {&grating.input, 1}, small_view(), {}, {1.0, 3.0, 9},
       [&](int, const RetinaImage&) {
         stop.request_stop();
         return Status();

@@ -74,7 +74,7 @@ TEST_CASE("an eye gets its own exposures, at the lens' power, and the light that
   for (const Side side : both_sides) {
     const auto seen = SeenShow::of(*show, "show.h5", 0, side);
     REQUIRE(seen);
-    const RetinaInput input = seen->input();
+    const RetinaInput input = seen->inputs().at(0);
     std::vector<double> powers_d;
     for (const RetinaExposure& exposure : input.exposures) {
       double share = 0.0, power_d = 0.0;
@@ -104,10 +104,11 @@ TEST_CASE("things stand where they stood in that frame") {
   REQUIRE(show);
   const auto seen = SeenShow::of(*show, "show.h5", 0, Side::left);
   REQUIRE(seen);
-  const Stage& stage = *seen->input().stage;
+  const Stage& stage = *seen->inputs().at(0).stage;
   CHECK(stage.surfaces[0].drawables[0].world_from_mesh[3].z == doctest::Approx(-1.0));
   const auto later = SeenShow::of(*show, "show.h5", 1, Side::left);
-  CHECK(later->input().stage->surfaces[0].drawables[0].world_from_mesh[3].z == doctest::Approx(-1.0 - 1.0 / 60.0));
+  CHECK(later->inputs().at(0).stage->surfaces[0].drawables[0].world_from_mesh[3].z ==
+        doctest::Approx(-1.0 - 1.0 / 60.0));
 }
 
 TEST_CASE("poses that a tracker gave the show count, not the project's") {
@@ -120,7 +121,7 @@ TEST_CASE("poses that a tracker gave the show count, not the project's") {
   REQUIRE(show);
   const auto seen = SeenShow::of(*show, "show.h5", 0, Side::left);
   REQUIRE(seen);
-  const Stage& stage = *seen->input().stage;
+  const Stage& stage = *seen->inputs().at(0).stage;
   const glm::dmat4& placed = stage.surfaces[0].drawables[0].world_from_mesh;
   CHECK(placed[3].x == doctest::Approx(0.25));
   CHECK(placed[3].z == doctest::Approx(-2.0));

@@ -72,6 +72,76 @@ TEST_CASE("a show reads back as it was written") {
   }
 }
 
+TEST_CASE("a show of two projectors reads back, each with its own size, images and exposures") {
+  const sample::Folder folder;
+  ShowHeader header = sample::header(2, 40, 30, 1);
+  const std::string one = "[{ \"name\": \"main\" }]";
+  header.project_text.replace(header.project_text.find(one), one.size(),
+                              "[{ \"name\": \"main\" }, { \"name\": \"other\" }]");
+  ShowHeader other = sample::header(2, 300, 70, 3);
+  other.images.pop_back();
+  header.others = {{1440.0, 300, 70, 3, other.images, sample::schedule(other.images).slots}};
+  const fs::path path = folder / "a.h5";
+  Result<ShowWriter> writer = ShowWriter::start(path, header, false, 1);
+  REQUIRE_MESSAGE(writer.ok(), (writer.ok() ? "" : describe(writer.fault())));
+  REQUIRE(writer->add_frame(0, sample::images(header, 0), sample::measure(0), 0));
+  CHECK_FALSE(writer->has_frame(0));
+  CHECK(writer->has_frame(0, 0));
+  CHECK_FALSE(writer->add_frame(0, sample::images(header, 0), {}, 1));  // the first one's size
+  CHECK_FALSE(writer->add_frame(0, sample::images(header, 0), {}, 2));
+  REQUIRE(writer->add_frame(0, sample::images(other, 0), sample::measure(5), 1));
+  CHECK(writer->has_frame(0));
+  REQUIRE(writer->add_frame(1, sample::images(other, 1), sample::measure(6), 1));
+  CHECK(writer->finish().fault().code == "show.missing-frame");
+  {  // killed here, and gone on with
+    writer = Fault{"none", "", "", ""};
+    writer = ShowWriter::start(path, header, true, 1);
+    REQUIRE(writer);
+    CHECK(writer->has_frame(0));
+    CHECK(writer->has_frame(1, 1));
+    CHECK_FALSE(writer->has_frame(1));
+  }
+  REQUIRE(writer->add_frame(1, sample::images(header, 1), sample::measure(1), 0));
+  REQUIRE(writer->finish());
+  CHECK_FALSE(fs::exists(folder / "a.h5.part"));
+  const Result<ShowReader> show = ShowReader::open(path);
+  REQUIRE_MESSAGE(show.ok(), (show.ok() ? "" : describe(show.fault())));
+  CHECK(show->header() == header);
+  for (int k = 0; k < 2; ++k) {
+    CHECK(show->frame(k)->codes == sample::images(header, k).codes);
+    CHECK(show->frame(k, 1)->codes == sample::images(other, k).codes);
+    CHECK(sample::same(show->measures()[static_cast<std::size_t>(k)], sample::measure(k)));
+    CHECK(sample::same(show->measures(1)[static_cast<std::size_t>(k)], sample::measure(5 + k)));
+  }
+  CHECK(show->image(1, 3, 1)->width_px == 300);
+}
+
+TEST_CASE("more projectors in a show than in its project: refused") {
+  const sample::Folder folder;
+  ShowHeader header = sample::header(1, 20, 10, 1);
+  header.others = {{1440.0, 20, 10, 1, header.images, header.schedule.slots}};
+  const Result<ShowWriter> writer = ShowWriter::start(folder / "a.h5", header, false, 1);
+  REQUIRE_FALSE(writer);
+  CHECK(writer.fault().where.find("/projector") != std::string::npos);
+}
+
+TEST_CASE("a second projector's datasets are held to the same rules") {
+  const sample::Folder folder;
+  ShowHeader header = sample::header(1, 20, 10, 1);
+  const std::string one = "[{ \"name\": \"main\" }]";
+  header.project_text.replace(header.project_text.find(one), one.size(),
+                              "[{ \"name\": \"main\" }, { \"name\": \"other\" }]");
+  header.others = {{1440.0, 20, 10, 1, header.images, header.schedule.slots}};
+  std::string where;
+  SUBCASE("slot") { header.others[0].slots[0].image = 9, where = "/projector/1/slot/image"; }
+  SUBCASE("size") { header.others[0].width_px = 0, where = "/projector/1/images"; }
+  SUBCASE("slice") { header.others[0].images[0].slice = 7, where = "/projector/1/image/slice"; }
+  SUBCASE("rate") { header.others[0].frames_per_second = 0.0, where = "/projector/1 attribute frames_per_second"; }
+  const Result<ShowWriter> writer = ShowWriter::start(folder / "a.h5", header, false, 1);
+  REQUIRE_FALSE(writer);
+  CHECK(writer.fault().where.find(where) != std::string::npos);
+}
+
 TEST_CASE("a show of nothing but a screen: no objects, no cues, no assets, no slots") {
   const sample::Folder folder;
   ShowHeader header = sample::header(2, 20, 10, 1);
