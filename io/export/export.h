@@ -13,7 +13,8 @@ namespace focalstage {
 using ExportProgress = std::function<void(int done, int total)>;
 
 /// Writes a show for other tools into `folder` (made if missing): a PNG per frame and image
-/// (`frame-0000-left-+0.50D.png`), `schedule.csv`, `waveform.csv` and `timing.vcd` (opens in GTKWave). Each file is
+/// (`frame-0000-left-+0.50D.png`), `schedule.csv`, `waveform.csv` and `timing.vcd` (opens in GTKWave). What
+/// further projectors show goes into folders `projector-1` and up, in the same way. Each file is
 /// replaced whole; the same show gives the same bytes. Faults: those of the show, "file.unwritable", "export.folder",
 /// "export.cancelled".
 Status export_show(const ShowReader& show, const std::filesystem::path& folder, const ExportProgress& progress = {},

@@ -4,11 +4,15 @@
 #include <stdlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
 #include "core/compile/compile.h"
+#include "core/reference/seen.h"
+#include "core/retina/retinas.h"
 #include "core/schedule/schedule.h"
+#include "editor/pipeline/compile_show.h"
 #include "editor/pipeline/source.h"
 #include "io/project/project_file.h"
 #include "io/show/writer.h"
@@ -127,4 +131,51 @@ TEST_CASE("poses that a tracker gave the show count, not the project's") {
   CHECK(placed[3].z == doctest::Approx(-2.0));
   CHECK(placed[2].x == doctest::Approx(1.0));
   CHECK(stage.world_from_viewer.position_m.y == 1.0);
+}
+
+TEST_CASE("an eye sees the light of both projectors: even, as bright as asked, fast and by rays") {
+  const TemporaryFolder folder;
+  auto source = open_project(FOCALSTAGE_SOURCE_DIR "/projects/two-projectors");
+  REQUIRE(source);
+  source->project.objects.resize(1);  // the sheet, without the ball
+  source->text = project_text(source->project);
+  CompileJob job;
+  job.show = folder / "two.h5";
+  const auto compiled = compile_show(*source, job, [](int, int) {}, {});
+  REQUIRE(compiled);
+  CHECK(compiled->findings.empty());
+  CHECK(compiled->projectors == 2);
+  CHECK(compiled->images == 16);
+  const auto show = ShowReader::open(job.show);
+  REQUIRE(show);
+  const auto seen = SeenShow::of(*show, "two.h5", 0, Side::left);
+  REQUIRE(seen);
+  const std::vector<RetinaInput> inputs = seen->inputs();
+  REQUIRE(inputs.size() == 2);
+  CHECK(inputs[0].level == 1.0);
+  CHECK(inputs[1].level == doctest::Approx(1.25));
+  RetinaView view;
+  view.width_px = 120;
+  view.height_px = 30;
+  view.fov_deg = 28.0;  // inside the sheet
+  view.gaze = {0.025, 0.0};
+  view.focus_d = 0.81;
+  Retinas retinas;
+  const auto both = retinas.view(inputs, view);
+  REQUIRE(both);
+  RetinaImage rays{view.width_px, view.height_px, std::vector<float>(both->rgb.size(), 0.0f)};
+  for (const RetinaInput& input : inputs) {
+    const auto more = see_by_rays(input, view, {32});
+    REQUIRE(more);
+    add_light(*more, rays);
+  }
+  for (const RetinaImage* picture : std::array<const RetinaImage*, 2>{&*both, &rays}) {
+    const auto [least, most] = std::minmax_element(picture->rgb.begin(), picture->rgb.end());
+    CHECK(*least == doctest::Approx(0.44).epsilon(0.03));
+    CHECK(*most == doctest::Approx(0.44).epsilon(0.03));
+  }
+  // One of them alone leaves the other's share dark.
+  const auto one = retinas.view({inputs.data(), 1}, view);
+  REQUIRE(one);
+  CHECK(*std::min_element(one->rgb.begin(), one->rgb.end()) < 0.1f);
 }
