@@ -1,7 +1,9 @@
 #include "editor/viewer/seen_pattern.h"
 
 #include <string>
+#include <vector>
 
+#include "core/retina/retinas.h"
 #include "editor/pipeline/seen_show.h"
 
 namespace focalstage {
@@ -24,10 +26,12 @@ Result<SeenPattern> see_pattern(const ShowReader& show, std::size_t frame, const
                                 const glm::dvec2& gaze) {
   const auto seen = SeenShow::of(show, "pattern", static_cast<int>(frame), eye.side);
   if (!seen) return seen.fault();
-  RetinaInput input = seen->input();
-  if (eye.lens_to_pupil_m) input.lens_to_pupil_m = *eye.lens_to_pupil_m;
-  for (RetinaExposure& exposure : input.exposures) {
-    for (PowerShare& part : exposure.powers) part.power_d += eye.power_error_d;
+  std::vector<RetinaInput> inputs = seen->inputs();
+  for (RetinaInput& input : inputs) {
+    if (eye.lens_to_pupil_m) input.lens_to_pupil_m = *eye.lens_to_pupil_m;
+    for (RetinaExposure& exposure : input.exposures) {
+      for (PowerShare& part : exposure.powers) part.power_d += eye.power_error_d;
+    }
   }
   RetinaView view;
   view.eye = eye.side;
@@ -37,8 +41,8 @@ Result<SeenPattern> see_pattern(const ShowReader& show, std::size_t frame, const
   view.fov_deg = fov_deg;
   view.gaze = gaze;
   view.head_offset_m = eye.pupil_offset_m;
-  Retina retina;
-  auto picture = retina.view(input, view);
+  Retinas retinas;
+  auto picture = retinas.view(inputs, view);
   if (!picture) return picture.fault();
   return SeenPattern{view, *std::move(picture)};
 }

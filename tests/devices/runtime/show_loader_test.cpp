@@ -73,6 +73,27 @@ TEST_CASE("times off by more than 20 us, and other sizes, are refused; the messa
   CHECK(names(size.fault(), "/projectors/0/width_px"));
 }
 
+TEST_CASE("a show of several projectors is refused by name, also by a rig that describes as many: one head is played") {
+  Project project = sample::project();
+  project.projectors.push_back(project.projectors[0]);
+  project.projectors[1].name = "beside";
+  const auto refused = load(project);
+  REQUIRE_FALSE(refused);
+  CHECK(refused.fault().code == "rig.differs");
+  CHECK(names(refused.fault(), "\"beside\" would stay dark"));
+  const auto two_heads = [](double frequency_hz) {
+    RigDescription rig = rig_at(frequency_hz);
+    rig.projectors.push_back(rig.projectors.at(0));
+    return rig;
+  };
+  const ShowHeader header = sample::header_of(project);
+  CHECK(fits_rig(header, project, two_heads(60.0)));
+  const auto plan = admit(header, project, make_schedule(project, header.images), {}, {two_heads, RigLimits{}});
+  REQUIRE_FALSE(plan);
+  CHECK(plan.fault().code == "rig.differs");
+  CHECK(names(plan.fault(), "several projectors"));
+}
+
 TEST_CASE("a show whose samples are not those of its project is held by its samples") {
   const Project project = sample::project();
   ShowHeader header = sample::header_of(project);
