@@ -58,6 +58,8 @@ void add_picture_rows(PropertyRows& rows) {
       "What code 0 lets through, as a share of full white.";
   Property& lumens = rows.number<Projector>("lumens", "lumens", {"lm", 0, 10.0});
   lumens.fresh = Value(1000.0);
+  rows.number<Projector>("blend margin", "blend_margin_px", {"px", 0, 1.0}).help =
+      "Beside other projectors: over how many pixels its share runs out to the edge of its picture and of a shadow.";
 }
 
 void add_timing_rows(PropertyRows& rows) {
