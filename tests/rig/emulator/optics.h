@@ -23,8 +23,8 @@ struct PixelRectangle {
 /// A picture that waits for its trigger.
 struct WaitingPicture {
   bool black = false;
-  std::uint32_t crc = 0;       ///< CRC-32 of its bytes, as zlib's
-  double mean_level = 0.0;     ///< of all its pixels, 0 to 1
+  std::uint32_t crc = 0;         ///< CRC-32 of its bytes, as zlib's
+  double mean_level = 0.0;       ///< of all its pixels, 0 to 1
   std::vector<double> levels{};  ///< of those of each region
 };
 
