@@ -60,6 +60,26 @@ def test_a_distance_from_lens_to_pupil_is_found():
         expect_dark(address)
 
 
+def test_keys_say_what_a_simulated_eye_says():
+    """The keys of what a simulated eye answered lead a person to the same value."""
+    with folder() as at, rig(at) as address:
+        adopted(at, address)
+        for action, more, above, below, suffixes in (("lens-to-pupil", ("--scripted", 17), "d", "u", [""]),
+                                                     ("interpupillary", ("--scripted", 61), "l", "r", [".left", ".right"])):
+            always = (at / "room", "--to", address, "--dry-run", "--json", "--questions", 20,
+                      "--despite-uncertainty")
+            always += ("--thread-m", 0.25) if action == "interpupillary" else ()
+            ran = ask(action, *always, *more, "--answers", at / action)
+            assert ran.status == DONE, ran
+            rows = [line for end in suffixes for line in (at / (action + end)).read_text().splitlines()[1:]]
+            assert len(rows) == 20 * len(suffixes), rows
+            keys = "".join(above if row.endswith(",above") else below for row in rows)
+            person = ask(action, *always, stdin=keys)
+            assert person.status == DONE, person
+            wanted = {**ran.json(), "observer": "human"}
+            assert person.json() == wanted, (person.json(), wanted)
+
+
 def test_an_interpupillary_distance_is_found():
     with folder() as at, rig(at) as address:
         file = adopted(at, address)
@@ -194,6 +214,7 @@ def test_what_is_not_good_enough_changes_nothing():
 
 
 if __name__ == "__main__":
-    main([test_a_distance_from_lens_to_pupil_is_found, test_an_interpupillary_distance_is_found,
+    main([test_a_distance_from_lens_to_pupil_is_found, test_keys_say_what_a_simulated_eye_says,
+          test_an_interpupillary_distance_is_found,
           test_a_lens_that_is_off_is_found, test_killed_and_gone_on,
           test_eyes_are_found_on_the_tracked_glasses, test_what_is_not_good_enough_changes_nothing])
