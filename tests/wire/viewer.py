@@ -44,7 +44,7 @@ def expect_dark(address):
 
 
 def test_a_distance_from_lens_to_pupil_is_found():
-    with folder() as at, rig(at) as address:
+    with folder() as at, rig(at, "--virtual-time") as address:
         adopted(at, address)
         for true_mm, eye in ((11.5, "left"), (21.0, "right")):
             ran = ask("lens-to-pupil", at / "room", "--to", address, "--eye", eye, "--scripted", true_mm, "--json", "-o",
@@ -62,7 +62,7 @@ def test_a_distance_from_lens_to_pupil_is_found():
 
 def test_keys_say_what_a_simulated_eye_says():
     """The keys of what a simulated eye answered lead a person to the same value."""
-    with folder() as at, rig(at) as address:
+    with folder() as at, rig(at, "--virtual-time") as address:
         adopted(at, address)
         for action, more, above, below, suffixes in (("lens-to-pupil", ("--scripted", 17), "d", "u", [""]),
                                                      ("interpupillary", ("--scripted", 61), "l", "r", [".left", ".right"])):
@@ -81,7 +81,7 @@ def test_keys_say_what_a_simulated_eye_says():
 
 
 def test_an_interpupillary_distance_is_found():
-    with folder() as at, rig(at) as address:
+    with folder() as at, rig(at, "--virtual-time") as address:
         file = adopted(at, address)
         ran = ask("interpupillary", at / "room", "--to", address, "--thread-m", 0.25, "--scripted", 58.3, "--json")
         assert ran.status == DONE, ran
@@ -98,7 +98,7 @@ def test_an_interpupillary_distance_is_found():
 
 
 def test_a_lens_that_is_off_is_found():
-    with folder() as at, rig(at) as address:
+    with folder() as at, rig(at, "--virtual-time") as address:
         file = adopted(at, address)
         before = file.read_text()
         for error_d, status in ((0.2, FINDINGS), (0.0, DONE)):
@@ -120,7 +120,7 @@ def test_killed_and_gone_on():
     seed = random.SystemRandom().randrange(1 << 32)
     dice = random.Random(seed)
     with folder() as at:
-        with rig(at) as address:
+        with rig(at, "--virtual-time") as address:
             adopted(at, address)
             arguments = ("--scripted", "17", "--dry-run", "--json")
             whole = ask("lens-to-pupil", at / "room", "--to", address, *arguments).json()
@@ -128,7 +128,7 @@ def test_killed_and_gone_on():
         for attempt in range(2):
             store = at / str(attempt)
             store.mkdir()
-            with rig(store) as address:  # a rig of its own: no lease of the one before to wait for
+            with rig(store, "--virtual-time") as address:  # a rig of its own: no lease of the one before to wait for
                 process = subprocess.Popen([FOCALSTAGE, "calibrate", "viewer", "lens-to-pupil", str(at / "room"), "--to",
                                             address, "--answers", str(answers), *arguments], stdout=subprocess.DEVNULL)
                 rows = answers.read_text().count("\n") if answers.exists() else 1
@@ -139,7 +139,7 @@ def test_killed_and_gone_on():
                 process.wait()
         kept = answers.read_text()
         assert 3 <= kept.count("\n") < 41, f"seed {seed}: {kept}"
-        with rig(at) as address:
+        with rig(at, "--virtual-time") as address:
             ran = ask("lens-to-pupil", at / "room", "--to", address, "--answers", answers, *arguments)
             assert ran.status == DONE and ran.json() == whole, f"seed {seed}: {ran}, wanted {whole}"
             assert answers.read_text().startswith(kept[: kept.rindex("\n") + 1]), f"seed {seed}: answers were lost"
@@ -194,7 +194,7 @@ def test_eyes_are_found_on_the_tracked_glasses():
 
 
 def test_what_is_not_good_enough_changes_nothing():
-    with folder() as at, rig(at) as address:
+    with folder() as at, rig(at, "--virtual-time") as address:
         file = adopted(at, address)
         before = file.read_text()
         short = ("--to", address, "--questions", "6")
