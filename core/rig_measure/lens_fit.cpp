@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 
 constexpr double degrees = 180.0 / std::numbers::pi;
 // A line's light must move by this share of full light.
-constexpr double least_height = 0.01;
+constexpr double least_height = 0.03;
 // And, where it is as sharp as the others, by this share of the highest of them.
 constexpr double least_of_best = 0.25;
 // A crossing is never taken for better than that.
