@@ -151,7 +151,7 @@ def test_adopted_rig_is_taken():
 def test_help_of_every_command():
     text = succeed("--help").out
     commands = [line.split()[0] for line in text.split("Commands:\n")[1].split("\n\n")[0].splitlines()]
-    assert len(commands) == 20, commands
+    assert len(commands) == 21, commands
     for name in commands:
         if name not in ("runtime", "edit", "bench"):
             assert "Usage: focalstage " + name in succeed(name, "--help").out
