@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Pushing under bad luck: damaged shows, killed clients, a killed rig, a second rig on the same port."""
 
+import errno
 import json
 import os
 import random
@@ -206,13 +207,14 @@ def a_chunk_came(disk):
 
 
 def fill_up(disk, path, leave):
-    """Takes all room of a small disk but `leave` bytes."""
-    free = os.statvfs(disk).f_bavail * os.statvfs(disk).f_frsize
-    with open(path, "wb") as f:
-        try:
-            os.posix_fallocate(f.fileno(), 0, max(free - leave, 4096))
-        except OSError:
-            pass
+    """Takes all room of a small disk but `leave` bytes, page by page: the rig may be taking some of it meanwhile."""
+    with open(path, "wb", buffering=0) as f:
+        while leave == 0 or os.statvfs(disk).f_bavail * os.statvfs(disk).f_frsize > leave:
+            try:
+                f.write(bytes(4096))
+            except OSError as full:
+                assert full.errno == errno.ENOSPC, full
+                return
 
 
 if __name__ == "__main__":
