@@ -41,8 +41,7 @@ struct EyeMount {
 /// "sightings.few"       fewer than four for an eye
 /// "sightings.near"      mark and spot less than 5 cm apart: they tell no direction
 /// "sightings.parallel"  ways of an eye that all run alike in the body's axes (3 degrees, root mean square), so that
-/// how
-///                       far away it is is anyone's: the head did not turn
+///                       how far away it is is anyone's: the head did not turn
 /// "sightings.behind"    one that leads away from the eye: mark and spot are exchanged
 /// "sightings.eyes"      eyes that are not 40 to 85 mm apart, or not side by side as the body is said to be turned
 Result<EyeMount> eye_mount(const std::vector<Sighting>& sightings, const glm::dquat& body_from_viewer);

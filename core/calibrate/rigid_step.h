@@ -9,7 +9,8 @@ namespace focalstage {
 
 // The room's own: what includes this sees Eigen.
 
-/// A pose changed by six numbers: a turn about its own axes (rad, axis times angle), then a step in its parent (m).
+/// A pose changed by six numbers: a turn about its own axes (rad, axis times angle), then a step in its parent, in
+/// metres.
 inline Rigid stepped(const Rigid& start, const Eigen::Ref<const Eigen::VectorXd>& by) {
   Rigid rigid = start;
   const glm::dvec3 turn(by(0), by(1), by(2));

@@ -16,6 +16,12 @@ void append(std::vector<Finding>& all, std::vector<Finding> more) {
 
 }  // namespace
 
+void sort_findings(std::vector<Finding>& findings) {
+  const auto order = [](const Finding& finding) { return std::tie(finding.severity, finding.code, finding.where); };
+  std::stable_sort(findings.begin(), findings.end(),
+                   [&](const Finding& a, const Finding& b) { return order(a) < order(b); });
+}
+
 std::vector<Finding> planned_findings(const Project& project, const std::vector<SlotTrouble>& troubles,
                                       std::span<const ProjectorModelData> models) {
   std::vector<Finding> findings = slice_findings(project);
@@ -34,9 +40,7 @@ std::vector<Finding> check(const Project& project, const ScheduleResult& schedul
   append(findings, light_findings(project, measured, schedule.schedule));
   for (Finding& finding : findings) finding.remedy = remedy_for(project, finding, measured, planned, models);
   append(findings, mesh_findings(project, measured.meshes));
-  const auto order = [](const Finding& finding) { return std::tie(finding.severity, finding.code, finding.where); };
-  std::stable_sort(findings.begin(), findings.end(),
-                   [&](const Finding& a, const Finding& b) { return order(a) < order(b); });
+  sort_findings(findings);
   return findings;
 }
 

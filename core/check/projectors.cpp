@@ -1,7 +1,6 @@
 // What is wrong with each of several projectors, and between them.
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
 #include "core/check/candidates.h"
@@ -105,9 +104,7 @@ std::vector<Finding> check(const Project& project, const std::vector<ScheduleRes
     }
     compare(project, i, schedules[0].schedule, schedules[i].schedule, findings);
   }
-  const auto order = [](const Finding& finding) { return std::tie(finding.severity, finding.code, finding.where); };
-  std::stable_sort(findings.begin(), findings.end(),
-                   [&](const Finding& a, const Finding& b) { return order(a) < order(b); });
+  sort_findings(findings);
   return findings;
 }
 

@@ -110,12 +110,12 @@ void check_projector(const Projector& projector, const RigValues& rig, std::vect
 
 /// Half a picture is none: what lies where projectors overlap would lack the share of those that are not there.
 void check_count(const Project& project, const RigValues& rig, std::vector<Finding>& findings) {
-  if (project.projectors.size() <= std::max<std::size_t>(rig.projectors, 1)) return;
-  const Projector& first_missing = project.projectors[std::max<std::size_t>(rig.projectors, 1)];
+  const std::size_t heads = std::max<std::size_t>(rig.projectors, 1);
+  if (project.projectors.size() <= heads) return;
   findings.push_back(difference(
-      "/projectors/" + std::to_string(std::max<std::size_t>(rig.projectors, 1)),
+      item_pointer("projectors", heads),
       "the project has " + std::to_string(project.projectors.size()) + " projectors and the rig " +
-          std::to_string(rig.projectors) + ": \"" + first_missing.name + "\" would stay dark",
+          std::to_string(rig.projectors) + ": \"" + project.projectors[heads].name + "\" would stay dark",
       static_cast<double>(project.projectors.size()), static_cast<double>(rig.projectors), "projectors", {}));
 }
 

@@ -24,6 +24,9 @@ inline constexpr double smallest_thing_m = 1e-3;
 /// What rounding may add to a number without anybody having meant it.
 inline constexpr double rounding = 1e-9;
 
+/// As users read them: errors first, then by code and place.
+void sort_findings(std::vector<Finding>& findings);
+
 std::vector<Finding> slice_findings(const Project& project);
 std::vector<Finding> sweep_findings(const Project& project);
 std::vector<Finding> optics_findings(const Project& project);

@@ -15,13 +15,9 @@ Blend::Blend(const std::vector<BlendProjector>& projectors, const std::vector<Vi
 SurfacePoint Blend::point_of(const TileMet& met, int i, const Rigid& world_from_projector) const {
   if (met.drawable[i] < 0) return {};
   const Drawable& drawable = *surfaces_[static_cast<std::size_t>(met.drawable[i])].drawable;
-  const glm::uvec3& t = drawable.mesh->triangles[met.triangle[i]];
-  const auto corner = [&](std::uint32_t k) {
-    return glm::dvec3(drawable.world_from_mesh * glm::dvec4(drawable.mesh->positions_m[k], 1.0));
-  };
-  const glm::dvec3 a = corner(t.x);
-  return {world_from_projector.point({met.x[i], met.y[i], met.z[i]}),
-          glm::normalize(glm::cross(corner(t.y) - a, corner(t.z) - a)), met.drawable[i], met.triangle[i]};
+  const auto [a, b, c] = corners_m(drawable, met.triangle[i]);
+  return {world_from_projector.point({met.x[i], met.y[i], met.z[i]}), glm::normalize(glm::cross(b - a, c - a)),
+          met.drawable[i], met.triangle[i]};
 }
 
 /// What full white of a projector gives there, against what counts as 1.

@@ -44,6 +44,14 @@ PixelPlace place_of(const TileGrid& grid, int column, int row) {
 
 }  // namespace
 
+std::array<glm::dvec3, 3> corners_m(const Drawable& drawable, std::uint32_t triangle) {
+  const glm::uvec3& t = drawable.mesh->triangles[triangle];
+  const auto corner = [&](std::uint32_t k) {
+    return glm::dvec3(drawable.world_from_mesh * glm::dvec4(drawable.mesh->positions_m[k], 1.0));
+  };
+  return {corner(t.x), corner(t.y), corner(t.z)};
+}
+
 double smooth_step(double share) {
   const double t = std::clamp(share, 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
@@ -69,12 +77,8 @@ double ProjectorReach::pixel_m(double depth_m) const {
 /// Where the plane of the face that sample `i` met lies along a look.
 double ProjectorReach::plane_depth_m(const TileMet& met, int i, const glm::dvec2& tangent) const {
   const Drawable& drawable = *surfaces_[static_cast<std::size_t>(met.drawable[i])].drawable;
-  const glm::uvec3& t = drawable.mesh->triangles[met.triangle[i]];
-  const auto corner = [&](std::uint32_t k) {
-    return glm::dvec3(drawable.world_from_mesh * glm::dvec4(drawable.mesh->positions_m[k], 1.0));
-  };
-  const glm::dvec3 a = corner(t.x);
-  const glm::dvec3 normal = projector_from_world_.direction(glm::cross(corner(t.y) - a, corner(t.z) - a));
+  const auto [a, b, c] = corners_m(drawable, met.triangle[i]);
+  const glm::dvec3 normal = projector_from_world_.direction(glm::cross(b - a, c - a));
   const double along = glm::dot(normal, glm::dvec3(tangent, -1.0));
   const double off = glm::dot(normal, glm::dvec3(met.x[i], met.y[i], met.z[i]));
   return along == 0.0 ? std::numeric_limits<double>::infinity() : off / along;

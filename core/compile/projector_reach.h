@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct SurfacePoint {
   std::int32_t drawable = -1;
   std::uint32_t triangle = 0;
 };
+
+/// Corners of a triangle of a drawable, in world space.
+std::array<glm::dvec3, 3> corners_m(const Drawable& drawable, std::uint32_t triangle);
 
 /// What one of several projectors lights, and how firmly (docs/blending.md).
 class ProjectorReach {

@@ -59,6 +59,11 @@ std::vector<double> filtered(const std::vector<double>& samples, const LensRespo
   return result;
 }
 
+LensHarmonic entry_of(const LensResponse& response, int harmonic) {
+  const auto found = std::ranges::find(response, harmonic, &LensHarmonic::harmonic);
+  return found == response.end() ? LensHarmonic{harmonic, default_gain_d_per_a, 0.0, {}} : *found;
+}
+
 }  // namespace
 
 std::vector<double> drive_for_power(const std::vector<double>& power_d, const LensResponse& response) {
@@ -70,6 +75,30 @@ std::vector<double> drive_for_power(const std::vector<double>& power_d, const Le
 
 std::vector<double> power_from_drive(const std::vector<double>& drive_a, const LensResponse& response) {
   return filtered(drive_a, response, default_gain_d_per_a, factor_of);
+}
+
+LensResponse halfway(const LensResponse& one, const LensResponse& other) {
+  if (one == other) return one;
+  LensResponse response;
+  for (const LensResponse* listed : {&one, &other}) {
+    for (const LensHarmonic& entry : *listed) {
+      const int n = entry.harmonic;
+      if (std::ranges::find(response, n, &LensHarmonic::harmonic) != response.end()) continue;
+      const Complex middle = 0.5 * (factor_of(entry_of(one, n)) + factor_of(entry_of(other, n)));
+      // A static response has a sign and no phase.
+      if (n == 0) {
+        response.push_back({n, middle.real(), 0.0, {}});
+      } else {
+        response.push_back({n, std::abs(middle), std::arg(middle) * 180.0 / std::numbers::pi, {}});
+      }
+    }
+  }
+  return response;
+}
+
+double strays(const LensHarmonic& one, const LensHarmonic& other) {
+  const Complex sum = factor_of(one) + factor_of(other);
+  return sum == 0.0 ? 1.0 : std::abs(factor_of(one) - factor_of(other)) / std::abs(sum);
 }
 
 }  // namespace focalstage

@@ -18,4 +18,11 @@ std::vector<double> drive_for_power(const std::vector<double>& power_d, const Le
 /// The power, in dioptres, that the lens makes of `drive_a`.
 std::vector<double> power_from_drive(const std::vector<double>& drive_a, const LensResponse& response);
 
+/// The response halfway between two, for lenses that get one current: neither is nearer to what was asked than the
+/// other. Lists each harmonic that either lists, once.
+LensResponse halfway(const LensResponse& one, const LensResponse& other);
+
+/// How far each of two lenses with one current strays from what was asked at that harmonic, as a share of it.
+double strays(const LensHarmonic& one, const LensHarmonic& other);
+
 }  // namespace focalstage

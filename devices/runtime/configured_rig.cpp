@@ -35,6 +35,7 @@ Result<RigSetup> rig_of(const RigConfig& config) {
     Result<RigDevices> devices = make_rig_devices(config.devices);
     if (!devices) return devices.fault();
     RigSetup setup;
+    setup.lenses_share_drive = [lens = devices->lens] { return !lens->abilities().eyes_apart; };
     setup.make = [made = std::move(*devices)] { return std::make_unique<DeviceRig>(made, DeviceRigSettings{}); };
     setup.describe = [config](const RigLimits& limits, double hz) { return describe_measured(config, limits, hz); };
     if (config.devices.light_sensor) {

@@ -5,6 +5,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "core/schedule/lens_response.h"
 #include "devices/runtime/response_points.h"
 
 namespace focalstage {
@@ -38,9 +39,10 @@ RigDescription with_measured(RigDescription rig, const RigMeasurement& measureme
   return rig;
 }
 
-Result<std::unique_ptr<MeasuredValues>> MeasuredValues::open(const std::filesystem::path& folder,
-                                                             DescribeRig describe) {
-  auto values = std::unique_ptr<MeasuredValues>(new MeasuredValues(folder / "measured.json", std::move(describe)));
+Result<std::unique_ptr<MeasuredValues>> MeasuredValues::open(const std::filesystem::path& folder, DescribeRig describe,
+                                                             std::function<bool()> share_drive) {
+  auto values = std::unique_ptr<MeasuredValues>(
+      new MeasuredValues(folder / "measured.json", std::move(describe), std::move(share_drive)));
   Result<std::optional<KeptMeasurement>> kept = load_measurement(values->file_);
   if (!kept) return kept.fault();
   if (!*kept) return values;
@@ -62,8 +64,15 @@ Status MeasuredValues::keep(const RigMeasurement& measurement) {
 
 RigDescription MeasuredValues::describe(double frequency_hz) const {
   RigDescription rig = plain_(frequency_hz);
-  const std::lock_guard lock(mutex_);
-  return measurement_ ? with_measured(std::move(rig), *measurement_) : rig;
+  {
+    const std::lock_guard lock(mutex_);
+    if (measurement_) rig = with_measured(std::move(rig), *measurement_);
+  }
+  if (share_drive_ && share_drive_()) {
+    PerEye<LensResponse>& lens = rig.glasses.lens_response;
+    lens.left = lens.right = halfway(lens.left, lens.right);
+  }
+  return rig;
 }
 
 }  // namespace focalstage

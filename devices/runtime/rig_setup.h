@@ -20,6 +20,9 @@ struct RigSetup {
   /// What it says of itself, for a sweep of that frequency.
   std::function<RigDescription(const RigLimits& limits, double frequency_hz)> describe;
 
+  /// Whether both lenses hang on one channel, as far as is known now; none: each has its own.
+  std::function<bool()> lenses_share_drive = nullptr;
+
   /// What looks at its light, and the lines that it knows; none: this rig cannot measure itself.
   std::shared_ptr<LightSensor> light_sensor = nullptr;
   std::vector<LightTargetConfig> light_targets = {};

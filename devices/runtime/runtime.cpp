@@ -62,8 +62,9 @@ Result<Runtime> Runtime::start(const RuntimeOptions& asked) {
   if (!store) return store.fault();
   Result<std::unique_ptr<AssetStore>> assets = AssetStore::open(options.store);
   if (!assets) return assets.fault();
-  Result<std::unique_ptr<MeasuredValues>> measured =
-      MeasuredValues::open(options.store, [rig = options.rig](double hz) { return rig.rig.describe(rig.limits, hz); });
+  Result<std::unique_ptr<MeasuredValues>> measured = MeasuredValues::open(
+      options.store, [rig = options.rig](double hz) { return rig.rig.describe(rig.limits, hz); },
+      options.rig.rig.lenses_share_drive);
   if (!measured) return measured.fault();
   auto state = std::make_unique<State>(options, std::move(*store), std::move(*assets), std::move(*measured));
   if (state->tracking) {

@@ -1,8 +1,11 @@
 #include "editor/cli/self_test_output.h"
 
+#include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "core/base/number_words.h"
+#include "core/schedule/lens_response.h"
 #include "editor/cli/output.h"
 
 namespace focalstage {
@@ -49,6 +52,19 @@ void add_eye(Rows& rows, const std::string& side, const MeasuredEye& eye) {
   }
 }
 
+/// Lenses on one channel get one current, halfway between what each would need.
+std::string apart_text(const PerEye<MeasuredEye>& eye) {
+  const auto swept = [](const MeasuredEye& one) {
+    const auto found = std::ranges::find(one.lens, 1, &MeasuredHarmonic::harmonic);
+    return found == one.lens.end() ? std::optional<LensHarmonic>()
+                                   : LensHarmonic{1, found->gain_d_per_a.value, found->phase_deg.value, {}};
+  };
+  const std::optional<LensHarmonic> left = swept(eye.left), right = swept(eye.right);
+  if (!left || !right) return "";
+  return "On one channel, each lens would stray by " + fixed_text(strays(*left, *right), 4) +
+         " D per dioptre that is swept.\n";
+}
+
 }  // namespace
 
 Value value_of(const RigMeasurement& measurement) {
@@ -68,7 +84,8 @@ std::string measurement_table(const RigMeasurement& measurement) {
   add(rows, "light rises in", measurement.light_rise_ms, 4, "ms");
   add_eye(rows, "left", measurement.eye.left);
   add_eye(rows, "right", measurement.eye.right);
-  return table_text({{"measured"}, {"value", true}, {""}, {"spread", true}, {"unit"}}, rows);
+  return table_text({{"measured"}, {"value", true}, {""}, {"spread", true}, {"unit"}}, rows) +
+         apart_text(measurement.eye);
 }
 
 }  // namespace focalstage

@@ -76,6 +76,13 @@ class EmulatedRig:
         assert answer[0] == "done", answer
         return json.loads(answer[1])
 
+    def played(self, seconds):
+        """Plays, and tells the light since half a second later."""
+        self.play()
+        from_s = self.tell("time")["time_s"]
+        self.until(lambda: self.tell("time")["time_s"] > from_s + seconds, f"{seconds} s of play", 30.0)
+        return [light for light in self.light() if light["start_s"] > from_s + 0.5]
+
     def rig(self, *words):
         return focalstage("rig", *words, "--to", self.address)
 

@@ -59,11 +59,7 @@ def test_measures_itself():
                 assert abs(point["phase_deg"]["value"] - true["phase_deg"]) < 1.5, (side, point, true)
         rig.until(lambda: rig.rig("go").status == 0, "go")
         slots = pushed(rig, at)
-        rig.play()
-        from_s = rig.tell("time")["time_s"]
-        rig.until(lambda: rig.tell("time")["time_s"] > from_s + 1.5, "a second and a half", 30.0)
-        lights = [light for light in rig.light() if light["start_s"] > from_s + 0.5]
-        worst_d, worst_s, counts = hold_against(slots, lights)
+        worst_d, worst_s, counts = hold_against(slots, rig.played(1.5))
         assert sum(counts) > 200, counts
         print(f"as it measured itself: power within {worst_d:.4f} D, time within {worst_s * 1e6:.2f} us")
 

@@ -62,3 +62,35 @@ TEST_CASE("of repeated harmonics the first counts, and impossible ones do no har
   for (const double drive_a : drive_for_power(power_d, {entry(1, 0.0, 0.0)})) CHECK(std::abs(drive_a) < 1e-15);
   CHECK(drive_for_power({}, odd).empty());
 }
+
+TEST_CASE("of two lenses with one current, neither strays further from what was asked than the other") {
+  const LensResponse left{entry(0, 40.0, 0.0), entry(1, 36.0, -14.0), entry(2, 20.0, 175.0)};
+  const LensResponse right{entry(1, 38.0, -12.0), entry(2, 22.0, -178.0)};
+  const LensResponse middle = halfway(left, right);
+  REQUIRE(middle.size() == 3);
+  const std::size_t count = 96;
+  const std::vector<double> wanted_d = cosine(count, 0.0, 1.0, 1, 30.0);
+  const std::vector<double> drive_a = drive_for_power(wanted_d, middle);
+  const auto worst_d = [&](const LensResponse& lens) {
+    const std::vector<double> made_d = power_from_drive(drive_a, lens);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < count; ++i) worst = std::max(worst, std::abs(made_d[i] - wanted_d[i]));
+    return worst;
+  };
+  // |36 cis(-14) - 38 cis(-12)| / |36 cis(-14) + 38 cis(-12)|, by hand.
+  CHECK(strays(left[1], right[0]) == doctest::Approx(0.0321).epsilon(0.01));
+  CHECK(worst_d(left) == doctest::Approx(strays(left[1], right[0])).epsilon(0.01));
+  CHECK(worst_d(right) == doctest::Approx(worst_d(left)).epsilon(0.01));
+  // Across the half turn there is no long way round.
+  CHECK(std::abs(middle[2].phase_deg) == doctest::Approx(178.7).epsilon(0.001));
+  CHECK(middle[2].gain_d_per_a == doctest::Approx(21.0).epsilon(0.01));
+  CHECK(halfway(left, left) == left);
+  CHECK(halfway({}, {}).empty());
+}
+
+TEST_CASE("poles the other way round leave a static gain its sign") {
+  const LensResponse middle = halfway({entry(0, -40.0, 0.0)}, {entry(0, -36.0, 0.0)});
+  REQUIRE(middle.size() == 1);
+  CHECK(middle[0].gain_d_per_a == doctest::Approx(-38.0));
+  CHECK(middle[0].phase_deg == 0.0);
+}
